@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A sweep as a value: printable, drawable, checked before anything moves.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "acquisition/kinematics.hpp"
+#include "acquisition/pose.hpp"
+#include "data-schemas/json.hpp"
+
+namespace gonio::acquisition {
+
+enum class StepKind { sample, dark, reference };
+enum class StepState { ok, masked, unreachable };
+const char* name(StepKind kind) noexcept;
+const char* name(StepState state) noexcept;
+
+struct PlanStep {
+  std::int64_t number = 0;  ///< stable identity of the step in the run file
+  StepKind kind = StepKind::sample;
+  Pose pose;
+  AxisAngles axes;          ///< commanded; empty unless ok
+  double exposure_s = 0.1;
+  StepState state = StepState::ok;
+  std::string reason;       ///< why masked or unreachable
+  double rotation_deg = 0;  ///< rotation of the sample this point belongs to (`--rotations`)
+  std::int64_t partner = -1;  ///< step number of its reciprocal partner, or -1
+};
+
+/// What the plan file asks for. Points = (grid ∪ density ∪ reciprocal partners) × rotations.
+struct PlanRequest {
+  std::string name;
+  std::vector<double> theta_i_deg, phi_i_deg;
+  std::vector<double> theta_o_deg, phi_o_deg;  ///< grid of outgoing directions; phi_o relative to phi_i
+  int density_points = 0;                      ///< per incidence, around the specular direction
+  double density_width_deg = 15;               ///< half of the density points lie within this angle of the specular direction
+  int reciprocity_pairs = 0;                   ///< partners added to that many points, per --reciprocity-pairs
+  int rotations = 1;                           ///< turns of the sample, equally spaced over 360°/K steps
+  double exposure_s = 0.1;
+  std::uint64_t seed = 1;
+
+  Json document;
+  std::string sha256;
+};
+
+PlanRequest load_plan(const std::filesystem::path& path);
+PlanRequest plan_from(const Json& document);
+
+/// The ordered sweep: dark and reference steps inserted by predicted bench time, sample points ordered to keep travel short.
+struct SweepPlan {
+  std::vector<PlanStep> steps;     ///< in the order they are measured; masked and unreachable points included
+  double predicted_s = 0;          ///< motion + settling + exposure
+  double travel_deg = 0, travel_bound_deg = 0;  ///< travel of the slowest axis per move, summed; a lower bound of it
+  std::size_t count(StepKind kind, StepState state) const;
+};
+
+SweepPlan make_plan(const PlanRequest& request, const Bench& bench);
+
+/// Seconds of a move with trapezoidal speed profiles, all axes starting together.
+double move_time_s(const AxisAngles& from, const AxisAngles& to, const Bench& bench);
+
+}  // namespace gonio::acquisition

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "brdf/lobe_geometry.hpp"
+
+#include <cmath>
+
+namespace gonio {
+
+LobeGeometry lobe_geometry(const GonioAngles& angles) noexcept {
+  const Angle& a = angles.theta_i;
+  const Angle& b = angles.theta_o;
+  const Angle half_delta = half(angles.phi_o - angles.phi_i);  // its cosine is the sine of half the distance from the mirror azimuth
+  const Angle gap = half(a - b);
+  const double sines = a.sin() * b.sin(), off_plane = sines * half_delta.cos() * half_delta.cos();
+  const double sin_difference = 2 * half(a + b).cos() * gap.sin();
+  const double hz = a.cos() + b.cos();
+  LobeGeometry g;
+  g.cos_i = a.cos();
+  g.cos_o = b.cos();
+  // tan² theta_h = |h_xy|² / h_z²
+  g.log_cos_h = hz > 0 ? -0.5 * std::log1p((sin_difference * sin_difference + 4 * off_plane) / (hz * hz)) : LobeGeometry::no_lobe;
+  const double q = gap.sin() * gap.sin() + off_plane;  // sin²(psi/2)
+  g.log_cos_psi = q < 0.5 ? std::log1p(-2 * q) : LobeGeometry::no_lobe;
+  return g;
+}
+
+LobeGeometry lobe_geometry(const Direction& wi, const Direction& wo) noexcept {
+  const double hx = wi.x() + wo.x(), hy = wi.y() + wo.y(), hz = wi.z() + wo.z();
+  LobeGeometry g;
+  g.cos_i = wi.z();
+  g.cos_o = wo.z();
+  g.log_cos_h = hz > 0 ? -0.5 * std::log1p((hx * hx + hy * hy) / (hz * hz)) : LobeGeometry::no_lobe;
+  // With r the mirrored wi, o - r = (hx, hy, oz - iz) is exact when both are close (Sterbenz). Only sums and products that do not
+  // change when wi and wo are exchanged, so that the lobe is reciprocal to the last bit.
+  const double dx = hx, dy = hy, dz = wo.z() - wi.z();
+  const double cos_psi = wi.z() * wo.z() - (wi.x() * wo.x() + wi.y() * wo.y());
+  const double half_sin2 = (dx * dx + dy * dy + dz * dz) / 4;  // sin²(psi/2) for unit vectors
+  if (cos_psi > 0)
+    // Near the peak the difference is exact; far from it the dot product has the smaller error.
+    g.log_cos_psi = half_sin2 < 0.25 ? std::log1p(-2 * half_sin2) : std::log(cos_psi);
+  else
+    g.log_cos_psi = LobeGeometry::no_lobe;
+  return g;
+}
+
+}  // namespace gonio

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What an analytic model is: a concept, a parameter table, and nothing the fitter would have to know twice.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "brdf/lobe_geometry.hpp"
+
+namespace gonio {
+
+/// One parameter of a model. Linear parameters multiply a basis function, are >= 0 and are fitted per channel; nonlinear ones are
+/// shared by all channels unless told otherwise, and are scanned on a logarithmic axis between `lower` and `upper`.
+struct Parameter {
+  std::string_view name;
+  std::string_view unit;
+  double lower, upper;
+  bool linear;
+};
+
+/// The geometry a model depends on apart from the horizon: what lets the fitter collapse data without loss.
+enum class DependsOn { nothing, theta_h, psi, all };
+
+struct ModelProperties {
+  bool reciprocal;     ///< f(wi, wo) = f(wo, wi) exactly
+  bool isotropic;      ///< depends on phi_o - phi_i only
+  bool bilateral;      ///< symmetric under phi -> -phi
+};
+
+/// An analytic BRDF model: f = Σ_k linear_k · basis_k(geometry; nonlinear), in 1/sr, cosine not included.
+///
+/// `parameters` lists the linear parameters first, in the order of the basis. `basis<T>` takes the geometry in double and the
+/// nonlinear parameters in T (double or an automatic-differentiation type). `albedo` gives the directional albedo of each basis
+/// function at an incidence, `albedo_bound` its supremum over all incidences: energy is conserved iff Σ linear_k · bound_k <= 1
+/// (all bounds are reached at the same incidence, the normal, so the condition is exact).
+template <class M>
+concept AnalyticModel = requires(const LobeGeometry& g, const double* nonlinear, double* out, Angle theta) {
+  { M::name } -> std::convertible_to<std::string_view>;
+  { M::citation } -> std::convertible_to<std::string_view>;
+  { M::parameters.size() } -> std::convertible_to<std::size_t>;
+  { M::depends_on } -> std::convertible_to<DependsOn>;
+  { M::properties } -> std::convertible_to<ModelProperties>;
+  M::basis(g, nonlinear, out);
+  M::albedo(theta, nonlinear, out);
+  M::albedo_bound(nonlinear, out);
+};
+
+template <AnalyticModel M>
+constexpr std::size_t linear_count() {
+  std::size_t count = 0;
+  for (const Parameter& parameter : M::parameters) count += parameter.linear ? 1 : 0;
+  return count;
+}
+template <AnalyticModel M>
+constexpr std::size_t nonlinear_count() {
+  return M::parameters.size() - linear_count<M>();
+}
+
+/// f for parameters in table order (linear first); 0 below the horizon.
+template <AnalyticModel M, class T>
+T evaluate(const LobeGeometry& g, const T* parameters) {
+  T basis[linear_count<M>()];
+  T f(0.0);
+  if (!g.above_horizon()) return f;
+  M::basis(g, parameters + linear_count<M>(), basis);
+  for (std::size_t k = 0; k < linear_count<M>(); ++k) f += parameters[k] * basis[k];
+  return f;
+}
+
+/// cos^s from its logarithm, exp(s · log_cos): 0 where there is no lobe (at s = 0 too) and below e^-700.
+template <class T>
+T cosine_power(double log_cos, const T& s) {
+  using std::exp;
+  if (!(log_cos > LobeGeometry::no_lobe)) return T(0.0);
+  const T exponent = s * log_cos;
+  if (exponent < -700.0) return T(0.0);
+  return exp(exponent);
+}
+
+}  // namespace gonio

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one list of analytic models. A new model is one file in brdf/models and one line here.
+#pragma once
+
+#include <tuple>
+#include <utility>
+
+#include "brdf/models/blinn_phong.hpp"
+#include "brdf/models/blinn_phong_exact.hpp"
+#include "brdf/models/blinn_phong_ngan.hpp"
+#include "brdf/models/lambert.hpp"
+#include "brdf/models/phong.hpp"
+#include "brdf/models/phong_1975.hpp"
+
+namespace gonio {
+
+using Models = std::tuple<Lambert,  //
+                          Phong1975, Phong, BlinnPhong, BlinnPhongExact, BlinnPhongNgan>;
+
+/// Calls `f(Model{})` for every model of the list, in order.
+template <class F>
+void for_each_model(F&& f) {
+  std::apply([&](auto... models) { (f(models), ...); }, Models{});
+}
+
+static_assert([]<class... M>(std::tuple<M...>*) { return (AnalyticModel<M> && ...); }(static_cast<Models*>(nullptr)));
+
+}  // namespace gonio

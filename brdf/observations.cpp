@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "brdf/observations.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace gonio {
+namespace {
+
+class DatasetObservations final : public Observations {
+ public:
+  explicit DatasetObservations(std::shared_ptr<const Dataset> dataset) : dataset_(std::move(dataset)) { dataset_->require_consistent(); }
+
+  const Channels& channels() const override { return dataset_->channels; }
+  Symmetry symmetry() const override { return dataset_->symmetry; }
+  std::size_t block_count() const override { return (dataset_->size() + max_block - 1) / max_block; }
+
+  ObservationBlock block(std::size_t index) const override {
+    ObservationBlock block;
+    const std::size_t first = index * max_block;
+    block.size = size_of(index);
+    for (const auto& values : dataset_->f) block.f.push_back({values.data() + first});
+    for (const auto& values : dataset_->u) block.u.push_back({values.data() + first});
+    return block;
+  }
+
+  void geometry(std::size_t index, std::vector<LobeGeometry>& out) const override {
+    out.resize(size_of(index));
+    std::transform(first(index), first(index) + static_cast<std::ptrdiff_t>(out.size()), out.begin(),
+                   [](const GonioAngles& angles) { return lobe_geometry(angles); });
+  }
+
+  void angles(std::size_t index, std::vector<GonioAngles>& out) const override {
+    out.assign(first(index), first(index) + static_cast<std::ptrdiff_t>(size_of(index)));
+  }
+
+  std::vector<CorrelatedComponent> correlated() const override { return dataset_->correlated; }
+
+ private:
+  std::size_t size_of(std::size_t index) const { return std::min(max_block, dataset_->size() - index * max_block); }
+  std::vector<GonioAngles>::const_iterator first(std::size_t index) const {
+    return dataset_->angles.begin() + static_cast<std::ptrdiff_t>(index * max_block);
+  }
+
+  std::shared_ptr<const Dataset> dataset_;
+};
+
+}  // namespace
+
+std::unique_ptr<Observations> observe(std::shared_ptr<const Dataset> dataset) {
+  return std::make_unique<DatasetObservations>(std::move(dataset));
+}
+
+}  // namespace gonio

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Samples as the fitter and the checks read them: block by block, straight from where they are stored.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "brdf/channels.hpp"
+#include "brdf/dataset.hpp"
+#include "brdf/lobe_geometry.hpp"
+
+namespace gonio {
+
+/// A column of numbers somewhere in memory: `scale · p[k · stride]` in units of the element.
+struct Column {
+  enum class Type { f64, f32 };
+  const void* data = nullptr;
+  std::ptrdiff_t stride = 1;
+  Type type = Type::f64;
+  double scale = 1;
+
+  explicit operator bool() const noexcept { return data != nullptr; }
+  double operator[](std::size_t k) const noexcept {
+    const auto offset = static_cast<std::ptrdiff_t>(k) * stride;
+    return scale * (type == Type::f64 ? static_cast<const double*>(data)[offset] : static_cast<double>(static_cast<const float*>(data)[offset]));
+  }
+};
+
+/// What is the same for every sample of a block.
+enum class ConstantOver { nothing, theta_h, incidence };
+
+/// At most `Observations::max_block` samples.
+struct ObservationBlock {
+  std::size_t size = 0;
+  ConstantOver constant = ConstantOver::nothing;
+  double log_cos_h = 0;        ///< of the whole block, if constant == theta_h
+  std::vector<Column> f;       ///< one per channel, 1/sr; NaN where this channel has no value
+  std::vector<Column> u;       ///< one per channel, 1/sr, or empty: unknown
+  /// Which samples count: all, those with mask[k] != 0, or (MERL) those where no channel is negative.
+  enum class Validity { all, mask, no_channel_negative } validity = Validity::all;
+  const std::uint8_t* mask = nullptr;
+
+  bool valid(std::size_t k) const noexcept {
+    if (validity == Validity::mask) return mask[k] != 0;
+    if (validity == Validity::no_channel_negative)
+      for (const Column& column : f)
+        if (column[k] < 0) return false;
+    return true;
+  }
+};
+
+/// Samples of a BRDF in blocks. No copy of a table is made: a block points into the mapping or the data set, which must outlive it.
+/// Every member is safe to call from several threads.
+class Observations {
+ public:
+  static constexpr std::size_t max_block = 16384;
+  virtual ~Observations() = default;
+
+  virtual const Channels& channels() const = 0;
+  virtual Symmetry symmetry() const = 0;
+  virtual std::size_t block_count() const = 0;
+  virtual ObservationBlock block(std::size_t index) const = 0;
+  /// The geometry of every sample of a block; `out` is resized. Costs time: ask only if the model needs it.
+  virtual void geometry(std::size_t index, std::vector<LobeGeometry>& out) const = 0;
+  /// The angles of every sample of a block; `out` is resized.
+  virtual void angles(std::size_t index, std::vector<GonioAngles>& out) const = 0;
+  /// Components of uncertainty shared by all samples.
+  virtual std::vector<CorrelatedComponent> correlated() const { return {}; }
+};
+
+/// A data set as observations; shares ownership of it.
+std::unique_ptr<Observations> observe(std::shared_ptr<const Dataset> dataset);
+
+}  // namespace gonio

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parameters of an analytic model from observations, with intervals that say what the data cannot say.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "brdf/observations.hpp"
+#include "fitting/checks/check.hpp"
+
+namespace gonio::fitting {
+
+/// What is minimised, Σ w r², w = 1/u² of the residual where the data carry u, else 1:
+///   linear      r = f̂ - f
+///   linear_cos  r = (f̂ - f) cos θi
+///   log         r = ln f̂ - ln f               (f <= 0 left out and counted)
+///   log1p       r = ln(1 + f̂ cos θi) - ln(1 + f cos θi)
+///   cbrt        r = ∛f̂ - ∛f
+enum class Metric { linear, linear_cos, log, log1p, cbrt };
+const char* name(Metric metric) noexcept;  ///< as on the command line: `linear-cos`
+std::optional<Metric> metric_named(std::string_view text);
+
+enum class Status { converged, not_converged, no_usable_data, failed };
+/// What an interval is: two-sided, one-sided, nothing at all (the data do not determine the parameter), or a value held fixed.
+enum class IntervalKind { interval, lower_bound, upper_bound, unidentified, fixed };
+const char* name(Status status) noexcept;
+const char* name(IntervalKind kind) noexcept;
+
+struct FitOptions {
+  std::string model = "blinn-phong";
+  Metric metric = Metric::linear;
+  bool per_channel = false;             ///< nonlinear parameters per channel too
+  std::map<std::string, double> fixed;  ///< parameters held at a value
+  double confidence = 0.95;             ///< of the profile intervals
+  int threads = 2;
+};
+
+struct FittedParameter {
+  std::string name;
+  std::optional<std::size_t> channel;  ///< nullopt: shared by all channels
+  double value = 0;
+  std::optional<double> sigma;         ///< standard uncertainty; none where it does not exist, never 0
+  std::optional<double> low, high;     ///< ends of the interval that exist for `kind`
+  IntervalKind kind = IntervalKind::unidentified;
+  double lower = 0, upper = 0;         ///< bounds of the search
+};
+
+/// Another local minimum of the profile over the nonlinear parameter.
+struct OtherMinimum {
+  std::vector<double> nonlinear;
+  std::vector<std::vector<double>> linear;  ///< [channel][k]
+  double cost = 0, cost_ratio = 0;          ///< cost over the best cost
+};
+
+/// Root mean squares of the residuals of every metric (unweighted), and chi² per degree of freedom where the data carry u.
+struct FitErrors {
+  double linear = 0, linear_cos = 0, log = 0, log1p = 0, cbrt = 0;
+  std::optional<double> chi2_per_dof;
+};
+
+struct FitResult {
+  Status status = Status::failed;
+  std::string reason;  ///< one sentence when not converged
+  std::string model;
+  Metric metric = Metric::linear;
+  Channels channels;
+  std::vector<FittedParameter> parameters;  ///< linear ones channel by channel, then nonlinear ones
+  /// Values per channel in table order, ready for AnalyticBrdf.
+  std::vector<std::vector<double>> values;
+  FitErrors errors;
+  std::size_t n_observations = 0;  ///< samples used
+  std::size_t n_masked = 0;        ///< cells of the observations that are no measurement, and f <= 0 under `log`
+  std::vector<OtherMinimum> other_minima;
+  std::vector<Check> checks;       ///< energy_bound, at_bound, adequacy, second_minimum
+  double fit_s = 0;
+};
+
+/// Global in the nonlinear parameter: linear parameters are eliminated by non-negative least squares, the profile over the exponent is
+/// scanned on [1e-3, 1e9], every local minimum refined, and the transformed metrics polished by Ceres from each of them.
+/// Never throws for numerical outcomes: see `status`. Error(usage) for an unknown model or a fixed parameter it does not have.
+FitResult fit(const Observations& observations, const FitOptions& options);
+
+}  // namespace gonio::fitting
