@@ -20,7 +20,7 @@ const std::vector<Node>& nodes() {
   static const std::vector<Node> table = [] {
     std::vector<Node> out;
     constexpr double step = 1.0 / 80;
-    for (int j = -300; j <= 240; ++j) {
+    for (int j = -300; j <= 280; ++j) {
       const double tau = j * step, z = pi * std::sinh(tau);
       const double t = pi / 2 / (1 + std::exp(-z));
       const double weight = pi / 2 * pi * std::cosh(tau) * step / (2 + 2 * std::cosh(z));
