@@ -20,7 +20,7 @@ namespace gonio::acquisition {
 struct Reading {
   std::int64_t step = 0;
   int attempt = 0;
-  int repeat = 0;                   ///< 0 .. Reference::readings - 1 at a reference visit, else 0
+  int repeat = 0;                   ///< 0 .. readings_at(kind, bench) - 1
   BenchTime time = 0;               ///< middle of the exposure
   double signal = 0;                ///< as the meter printed it [W]
   double exposure_s = 0, range_w = 0;
