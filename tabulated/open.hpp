@@ -2,9 +2,9 @@
 // Opening any file that holds a BRDF: by content, not by name.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,23 +24,23 @@ enum class MerlNodes { left, centre };
 enum class InPlane { specular_positive, specular_negative };
 
 struct ReadOptions {
-  std::optional<std::string> format;                          ///< overrides recognition by content
-  std::vector<std::pair<std::string, std::string>> columns;   ///< NAME=column name or 1-based position
-  std::map<std::string, double> set;                          ///< constants for columns the file does not have
-  std::optional<Quantity> quantity;                           ///< what the file's values are; default f
-  std::optional<std::filesystem::path> blank;                 ///< subtracted value by value at equal directions before conversion
+  std::optional<std::string> format;                         ///< overrides recognition by content
+  std::vector<std::pair<std::string, std::string>> columns;  ///< NAME=column name or 1-based position
+  std::map<std::string, double> set;                         ///< constants for columns the file does not have
+  std::optional<Quantity> quantity;                          ///< what the file's values are; default f
+  std::optional<std::filesystem::path> blank;                ///< subtracted value by value at equal directions before conversion
   std::optional<InPlane> in_plane;
-  std::optional<double> missing = -1;                         ///< a row whose channels are all exactly this is masked; nullopt: none
-  std::optional<MerlNodes> merl_nodes;                        ///< default: the sidecar's, else left
+  std::optional<double> missing = -1;   ///< a row whose channels are all exactly this is masked; nullopt: none
+  std::optional<MerlNodes> merl_nodes;  ///< default: the sidecar's, else left
 };
 
 /// What a file turned out to be. Exactly one of `dataset` and `table`/`model` is the content; the others are views of it where
 /// they make sense: a data set can be evaluated (interpolated) as `brdf`, everything measured can be fitted as `observations`.
 struct Opened {
-  std::string format;                               ///< csv, brdf-exr, merl, fit-json
-  std::shared_ptr<const Dataset> dataset;           ///< samples, or null
-  std::shared_ptr<const Observations> observations; ///< what the fitter and the checks read, or null for a model
-  std::shared_ptr<const Brdf> brdf;                 ///< evaluable, or null
+  std::string format;                                     ///< csv, brdf-exr, merl, fit-json
+  std::shared_ptr<const Dataset> dataset;                 ///< samples, or null
+  std::shared_ptr<const Observations> observations;       ///< what the fitter and the checks read, or null for a model
+  std::shared_ptr<const Brdf> brdf;                       ///< evaluable, or null
   std::vector<std::pair<std::string, std::string>> info;  ///< for people: size, angles covered, node rule, ...
   MaskedCounts masked;
   bool simulated = false;

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Thousands of damaged CSV files: each is read or refused with an Error, never anything else.
+#include <random>
+
+#include "tabulated/csv.hpp"
+#include "tests/check.hpp"
+#include "tests/tabulated/scratch.hpp"
+
+using namespace gonio;
+using namespace gonio::tabulated;
+using gonio::tests::contents;
+using gonio::tests::Scratch;
+
+namespace {
+
+const std::string plain =
+    "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value,u_value\n30,0,40,180,.5,.1\n30,0,-40,10,1e-3,nan\n30,0,90,180,-1,1\n";
+
+std::string with_metadata(const Scratch& scratch) {
+  Dataset data;
+  data.channels = rgb_channels();
+  data.channels[0].wavelength_in_nm = 550;
+  data.angles = {{10_deg, 0_deg, 20_deg, 180_deg}, {30_deg, 0_deg, 20_deg, 180_deg}};
+  data.f = {{1.0, 2.0}, {1.0, 2.0}, {1.0, 2.0}};
+  data.u = data.f;
+  data.correlated = {{"scale", 0.1, {1, 1}}};
+  data.provenance = {{"who", "me"}};
+  write_csv(data, scratch / "seed.csv");
+  return contents(scratch / "seed.csv");
+}
+
+}  // namespace
+
+TEST_CASE("No damaged CSV file does more than raise an error") {
+  const Scratch scratch;
+  std::mt19937 random(20260703);
+  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  const std::string letters = std::string("0123456789.-+eE,;\t \"#\r\n\\:naNAinf", 34) + std::string("\0\xff", 2);
+  const std::string seeds[] = {plain, with_metadata(scratch)};
+  int read = 0, refused = 0;
+  for (int round = 0; round < 6000; ++round) {
+    std::string text = seeds[round % 2];
+    for (std::size_t edit = 0, edits = 1 + below(3); edit < edits && !text.empty(); ++edit) {
+      const std::size_t at = below(text.size());
+      switch (below(5)) {
+        case 0: text[at] = letters[below(letters.size())]; break;
+        case 1: text.insert(at, 1, letters[below(letters.size())]); break;
+        case 2: text.erase(at, 1 + below(8)); break;
+        case 3: text.resize(at); break;
+        default: text.insert(at, text.substr(below(text.size()), below(30))); break;
+      }
+    }
+    INFO("round " << round << " of seed 20260703");
+    try {
+      const Dataset data = read_csv(scratch.file("damaged.csv", text));
+      data.require_consistent();
+      REQUIRE(data.size() > 0);
+      ++read;
+    } catch (const Error& error) {
+      REQUIRE(error.kind() == ErrorKind::input);
+      ++refused;
+    }
+  }
+  CHECK(read > 200);  // the damage must not be so coarse that only one branch is tried
+  CHECK(refused > 500);
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tabulated/open.hpp"
+
+#include "tests/check.hpp"
+#include "tests/tabulated/scratch.hpp"
+
+using namespace gonio;
+using namespace gonio::tabulated;
+using gonio::tests::faults_of;
+using gonio::tests::Scratch;
+
+TEST_CASE("A file is opened by what it holds, not by its name") {
+  const Scratch scratch;
+  const Opened opened = open_brdf(scratch.file("samples.bin", "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value\n30,0,40,180,1\n"));
+  CHECK(opened.format == "csv");
+  REQUIRE(opened.dataset);
+  CHECK(opened.dataset->size() == 1);
+  REQUIRE(opened.observations);
+  CHECK(opened.observations->block_count() == 1);
+  CHECK_FALSE(opened.info.empty());
+}
+
+TEST_CASE("What cannot be a BRDF is refused with what was found") {
+  const Scratch scratch;
+  CHECK(faults_of([&] { open_brdf(scratch / "nothing"); }).find("no such file") != std::string::npos);
+  CHECK(faults_of([&] { open_brdf(scratch.folder()); }).find("not a file") != std::string::npos);
+  CHECK(faults_of([&] { open_brdf(scratch.file("empty", "")); }).find("an empty file") != std::string::npos);
+  CHECK(faults_of([&] { open_brdf(scratch.file("noise", std::string(100, '\1'))); }).find("100 bytes of an unknown kind") !=
+        std::string::npos);
+  ReadOptions options;
+  options.format = "tiff";
+  CHECK(faults_of([&] { open_brdf(scratch.file("x", "1 2 3"), options); }).find("usage|--format|tiff|one of ") == 0);
+}
+
+TEST_CASE("Every format has a name of its own, a description and a reader") {
+  for (const Format& format : formats()) {
+    CHECK(std::string(format.description).size() > 10);
+    CHECK(format.recognises != nullptr);
+    CHECK(format.open != nullptr);
+    CHECK(std::count_if(formats().begin(), formats().end(), [&](const Format& other) { return std::string(other.name) == format.name; }) ==
+          1);
+  }
+}
