@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading documents, and the context block.
+#include "data-schemas/document.hpp"
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+namespace gonio {
+
+std::string read_file(const std::filesystem::path& path) {
+  const auto fail = [&](const std::string& found) { throw Error(ErrorKind::input, {path.string(), found, "a readable file"}); };
+  if (std::filesystem::is_directory(path)) fail("a folder");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) fail(std::generic_category().message(errno));
+  std::string bytes(std::istreambuf_iterator<char>(file), {});
+  if (file.bad()) fail(std::generic_category().message(errno));
+  return bytes;
+}
+
+Json context(const std::vector<HashedInput>& inputs, std::optional<std::uint64_t> seed, bool simulated) {
+  Json list = Json::array();
+  for (const HashedInput& input : inputs) list.push_back(Json::object({{"path", input.path}, {"sha256", input.sha256.get()}}));
+  return Json::object({{"program", "gonio"},
+                       {"version", GONIO_VERSION},
+                       {"build_type", GONIO_BUILD_TYPE},
+                       {"inputs", std::move(list)},
+                       {"seed", seed ? Json(*seed) : Json()},
+                       {"simulated", simulated}});
+}
+
+}  // namespace gonio
