@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <vector>
@@ -15,6 +16,8 @@
 namespace gonio {
 
 /// A column of numbers somewhere in memory: `scale · p[k · stride]` in units of the element.
+/// The numbers need not be aligned: MERL's start 12 bytes into the file, so a pointer to double must never be dereferenced here
+/// (compilers that vectorise such a loop may choose aligned loads). Read through this operator or copy with memcpy.
 struct Column {
   enum class Type { f64, f32 };
   const void* data = nullptr;
@@ -25,7 +28,11 @@ struct Column {
   explicit operator bool() const noexcept { return data != nullptr; }
   double operator[](std::size_t k) const noexcept {
     const auto offset = static_cast<std::ptrdiff_t>(k) * stride;
-    return scale * (type == Type::f64 ? static_cast<const double*>(data)[offset] : static_cast<double>(static_cast<const float*>(data)[offset]));
+    const auto read = [&]<class T>(T value) {
+      std::memcpy(&value, static_cast<const std::byte*>(data) + offset * static_cast<std::ptrdiff_t>(sizeof value), sizeof value);
+      return scale * static_cast<double>(value);
+    };
+    return type == Type::f64 ? read(0.0) : read(0.0f);
   }
 };
 

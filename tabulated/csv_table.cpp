@@ -5,27 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <string_view>
 
+#include "data-schemas/document.hpp"
 #include "tabulated/csv_text.hpp"
 
 namespace gonio::tabulated {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-std::string whole_text(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const std::streamoff size = file ? static_cast<std::streamoff>(file.tellg()) : -1;
-  if (size < 0) throw Error(ErrorKind::input, {path.string(), "a file that cannot be read", "a readable file"});
-  std::string text(static_cast<std::size_t>(size), '\0');
-  file.seekg(0);
-  file.read(text.data(), size);
-  if (!file) throw Error(ErrorKind::input, {path.string(), "an error while reading", "a readable file"});
-  return text;
-}
 
 bool is_header(const std::vector<std::string_view>& fields) {
   return std::any_of(fields.begin(), fields.end(), [](std::string_view field) { return parse_number(field).fault != nullptr; });
@@ -123,7 +112,7 @@ class RowReader {
 
 CsvTable read_csv_table(const std::filesystem::path& path, const ReadOptions& options) {
   FaultList faults(path.string());
-  const std::string text = whole_text(path);
+  const std::string text = read_file(path);
   CsvTable table;
 
   // Comment lines up to the first row; the metadata of our own files stands there.

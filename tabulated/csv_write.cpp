@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <vector>
 
+#include "data-schemas/write_file.hpp"
 #include "tabulated/csv.hpp"
 #include "tabulated/csv_columns.hpp"
 #include "tabulated/csv_text.hpp"
-#include "tabulated/replace_file.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -68,29 +67,19 @@ void write_csv(const Dataset& dataset, const std::filesystem::path& path) {
   for (const auto& [name, values] : dataset.extra) column(name, values);
   text += '\n';
 
-  replace_file(path, [&](const std::filesystem::path& temporary) {
-    constexpr std::size_t chunk = 1u << 20;
-    std::ofstream file(temporary, std::ios::binary);
-    for (std::size_t row = 0; row < dataset.size(); ++row) {
-      for (std::size_t k = 0; k < angle_members.size(); ++k) {
-        const Angle& angle = dataset.angles[row].*angle_members[k];
-        if (k > 0) text += ',';
-        append_number(text, in_radians[k] ? angle.radians() : angle.degrees());
-      }
-      for (const std::vector<double>* values : columns) {
-        text += ',';
-        append_number(text, (*values)[row]);
-      }
-      text += '\n';
-      if (text.size() > chunk) {
-        file.write(text.data(), static_cast<std::streamsize>(text.size()));
-        text.clear();
-      }
+  for (std::size_t row = 0; row < dataset.size(); ++row) {
+    for (std::size_t k = 0; k < angle_members.size(); ++k) {
+      const Angle& angle = dataset.angles[row].*angle_members[k];
+      if (k > 0) text += ',';
+      append_number(text, in_radians[k] ? angle.radians() : angle.degrees());
     }
-    file.write(text.data(), static_cast<std::streamsize>(text.size()));
-    file.close();
-    if (!file) throw Error(ErrorKind::input, {path.string(), "an error while writing", "a place where a file can be written"});
-  });
+    for (const std::vector<double>* values : columns) {
+      text += ',';
+      append_number(text, (*values)[row]);
+    }
+    text += '\n';
+  }
+  write_file_atomically(path, text);
 }
 
 }  // namespace gonio::tabulated

@@ -2,13 +2,14 @@
 #include "tabulated/csv_metadata.hpp"
 
 #include <sstream>
-#include "tests/check.hpp"
 
 #include "tests/tabulated/scratch.hpp"
 
+#include "tests/check.hpp"
+
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::tests::faults_of;
+using gonio::test::faults_of;
 
 namespace {
 

@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/check.hpp"
 #include "tests/tabulated/scratch.hpp"
+
+#include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::tests::faults_of;
-using gonio::tests::Scratch;
+using gonio::test::faults_of;
+using gonio::test::Scratch;
 
 namespace {
 

@@ -5,14 +5,15 @@
 #include <random>
 
 #include "tabulated/csv.hpp"
-#include "tests/check.hpp"
 #include "tests/tabulated/scratch.hpp"
+
+#include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::tests::contents;
-using gonio::tests::faults_of;
-using gonio::tests::Scratch;
+using gonio::test::contents;
+using gonio::test::faults_of;
+using gonio::test::Scratch;
 
 namespace {
 

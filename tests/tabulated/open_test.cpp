@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tabulated/open.hpp"
 
-#include "tests/check.hpp"
 #include "tests/tabulated/scratch.hpp"
+
+#include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::tests::faults_of;
-using gonio::tests::Scratch;
+using gonio::test::faults_of;
+using gonio::test::Scratch;
 
 TEST_CASE("A file is opened by what it holds, not by its name") {
   const Scratch scratch;

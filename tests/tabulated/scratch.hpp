@@ -13,7 +13,7 @@
 
 #include "brdf/error.hpp"
 
-namespace gonio::tests {
+namespace gonio::test {
 
 class Scratch {
  public:
@@ -59,4 +59,4 @@ std::string faults_of(Action&& action) {
   return "";
 }
 
-}  // namespace gonio::tests
+}  // namespace gonio::test
