@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// gonio import and gonio export: from any readable format to any writable one.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "data-schemas/document.hpp"
+#include "tools/brdf_source.hpp"
+#include "tools/output.hpp"
+#include "tools/verbs.hpp"
+
+namespace gonio::tools {
+namespace {
+
+void report(Console& console, const std::string& in, const std::string& out, const tabulated::Format& format, const tabulated::Opened& opened) {
+  if (console.json) {
+    Json document = Json::object({{"context", context({hash_in_background(in)}, std::nullopt, opened.simulated)}, {"format", format.name}, {"out", out}});
+    if (opened.dataset) document.set("samples", static_cast<std::int64_t>(opened.dataset->size()));
+    document.set("n_masked", masked_document(opened.masked));
+    console.print(document);
+    return;
+  }
+  console.print(fmt::format("{} ({}) -> {} ({}{})", in, opened.format, out, format.name,
+                            opened.dataset ? fmt::format(", {} samples", opened.dataset->size()) : std::string()));
+}
+
+}  // namespace
+
+int import_verb(const Arguments& arguments, Console& console) {
+  CLI::App app("Reads any supported format and writes ours: .csv or .brdf.exr by the name of the output.", "import");
+  std::string in, out;
+  ReadFlags flags;
+  app.add_option("FILE", in, "Any readable BRDF file")->required();
+  app.add_option("--out", out, "Output: NAME.csv or NAME.brdf.exr")->required();
+  flags.add_to(app);
+  add_common(app, console);
+  if (!parse(app, arguments)) return 0;
+
+  const tabulated::Format& format = format_of_name(out);
+  const tabulated::Opened opened = tabulated::open_brdf(in, flags.options());
+  console.note_masked(in, opened.masked);
+  format.write(opened, out, {});
+  report(console, in, out, format, opened);
+  return 0;
+}
+
+int export_verb(const Arguments& arguments, Console& console) {
+  CLI::App app("Writes a table or a fit as a renderer's format.", "export");
+  std::string in, out, to, nodes = "left";
+  ReadFlags flags;
+  app.add_option("FILE", in, "Any readable BRDF file, a fit.json included")->required();
+  app.add_option("--to", to, "Format to write: " + writable_formats())->required();
+  app.add_option("--out", out, "Output file")->required();
+  flags.add_to(app);
+  add_common(app, console);
+  if (!parse(app, arguments)) return 0;
+
+  const tabulated::Format& format = writable_format(to);
+  tabulated::WriteOptions options;
+  if (!flags.merl_nodes.empty()) options.merl_nodes = merl_nodes_named(flags.merl_nodes);
+  const tabulated::Opened opened = tabulated::open_brdf(in, flags.options());
+  console.note_masked(in, opened.masked);
+  format.write(opened, out, options);
+  report(console, in, out, format, opened);
+  return 0;
+}
+
+}  // namespace gonio::tools
