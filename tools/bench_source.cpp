@@ -23,9 +23,12 @@ void PlanSource::add_to(CLI::App& app) {
 
 PlanRequest PlanSource::request() const {
   PlanRequest request = load_plan(plan);
-  if (reciprocity_pairs >= 0) request.reciprocity_pairs = reciprocity_pairs;
-  if (rotations > 0) request.rotations = rotations;
-  return request;
+  if (reciprocity_pairs < 0 && rotations < 0) return request;
+  // The flags become part of the document, so that the run file holds what was asked for.
+  Json document = request.document;
+  if (reciprocity_pairs >= 0) document.set("reciprocity_pairs", reciprocity_pairs);
+  if (rotations > 0) document.set("rotations", rotations);
+  return plan_from(document, plan);
 }
 
 void PlanSource::require_reachable(const SweepPlan& plan_) const {
@@ -42,6 +45,16 @@ void PlanSource::require_reachable(const SweepPlan& plan_) const {
   if (count == 0) return;
   if (count > most) faults.push_back({plan, fmt::format("{} more unreachable points", count - most), "see gonio plan --skip-unreachable --list"});
   throw Error(ErrorKind::limit, fmt::format("{} points of the plan cannot be reached; nothing has moved", count), faults);
+}
+
+Bench bench_with_seed(const std::filesystem::path& path, std::optional<std::uint64_t> seed) {
+  Bench bench = load_bench(path);
+  if (!seed) return bench;
+  if (!bench.is_simulated) throw Error(ErrorKind::usage, {"--seed", "a bench that is not simulated", "a bench file with a `simulated` part"});
+  Json document = bench.document, simulated = document.at("simulated");
+  simulated.set("seed", *seed);
+  document.set("simulated", simulated);
+  return bench_from(document, path.parent_path(), path.string());
 }
 
 std::vector<std::string> plan_lines(const SweepPlan& plan, const Bench& bench) {

@@ -2,7 +2,10 @@
 // The flags that name a plan and a bench, and the sample of a simulated one.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +27,9 @@ struct PlanSource {
   /// Error(limit) naming every unreachable point, unless --skip-unreachable.
   void require_reachable(const acquisition::SweepPlan& plan) const;
 };
+
+/// The bench of a file, with the seed of its simulation replaced if one is given.
+acquisition::Bench bench_with_seed(const std::filesystem::path& path, std::optional<std::uint64_t> seed);
 
 /// A plan for people: counts by state and reason, predicted time, travel over its bound.
 std::vector<std::string> plan_lines(const acquisition::SweepPlan& plan, const acquisition::Bench& bench);

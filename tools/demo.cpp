@@ -67,8 +67,7 @@ int demo_verb(const Arguments& arguments, Console& console) {
   write_file_atomically(files.plan(), example_text("demo.plan.json"));
 
   console.note("1. Plan: what the bench can reach, in which order");
-  Bench bench = load_bench(files.bench());
-  if (seed) bench.set_seed(*seed);
+  const Bench bench = bench_with_seed(files.bench(), seed);
   const PlanRequest request = load_plan(files.plan());
   const SweepPlan plan = make_plan(request, bench);
   for (const std::string& line : plan_lines(plan, bench)) console.note("   " + line);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // gonio serve: emulate a bench's devices until stopped.
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <iostream>
+#include <optional>
 
 #include <poll.h>
 
@@ -28,9 +30,8 @@ int serve_verb(const Arguments& arguments, Console& console) {
   add_common(app, console);
   if (!parse(app, arguments)) return 0;
 
-  Bench bench = load_bench(path);
+  const Bench bench = bench_with_seed(path, seed);
   if (!bench.is_simulated) throw Error(ErrorKind::input, {path, "a bench that is not simulated", "a bench file with a `simulated` part"});
-  if (seed) bench.set_seed(*seed);
   const auto brdf = simulated_sample(bench, path, sample, parameters);
   std::shared_ptr<Clock> clock;
   if (clock_name == "virtual")

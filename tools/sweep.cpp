@@ -61,8 +61,7 @@ int sweep_verb(const Arguments& arguments, Console& console) {
   add_common(app, console);
   if (!parse(app, arguments)) return 0;
 
-  Bench bench = load_bench(source.bench);
-  if (seed) bench.set_seed(*seed);
+  Bench bench = bench_with_seed(source.bench, seed);
   if (!modbus.empty()) bench.modbus = endpoint_from(modbus, "--modbus");
   if (!scpi.empty()) bench.scpi = endpoint_from(scpi, "--scpi");
   const PlanRequest request = source.request();
