@@ -52,7 +52,7 @@ int check_verb(const Arguments& arguments, Console& console) {
   if (console.json || !out.empty()) {
     const Json document = checks_document(checks, context(inputs, std::nullopt, simulated));
     if (!out.empty()) write_file_atomically(out, document.dump(2) + "\n");
-    if (console.json) console.print(document);
+    if (console.json) console.print_json(document);
   }
   if (!console.json)
     for (const std::string& line : check_lines(checks)) console.print(line);

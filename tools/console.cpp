@@ -14,7 +14,7 @@ namespace gonio::tools {
 
 void Console::print(std::string_view line) const { std::cout << line << '\n'; }
 
-void Console::print(const Json& document) const { std::cout << document.dump(2) << '\n'; }
+void Console::print_json(const Json& document) const { std::cout << document.dump(2) << '\n'; }
 
 void Console::note(std::string_view line) const {
   if (!quiet) std::cerr << line << '\n';

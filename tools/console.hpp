@@ -23,7 +23,7 @@ struct Console {
 
   /// A line of the result.
   void print(std::string_view line) const;
-  void print(const Json& document) const;
+  void print_json(const Json& document) const;
   /// A line for the person watching; not with --quiet.
   void note(std::string_view line) const;
   /// Replaces the line of progress (on a terminal) or adds one (elsewhere); empty ends it.

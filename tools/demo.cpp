@@ -109,7 +109,7 @@ int demo_verb(const Arguments& arguments, Console& console) {
 
   const double total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (console.json) {
-    console.print(Json::object({{"context", context({hash_in_background(files.plan()), hash_in_background(files.bench())}, bench.seed, true)},
+    console.print_json(Json::object({{"context", context({hash_in_background(files.plan()), hash_in_background(files.bench())}, bench.seed, true)},
                                 {"folder", folder},
                                 {"samples", static_cast<std::int64_t>(samples.dataset->size())},
                                 {"bench_s", swept.bench_s},

@@ -103,7 +103,7 @@ int eval_verb(const Arguments& arguments, Console& console) {
     for (const Channel& channel : opened.brdf->channels()) channels.push_back(channel.name);
     std::vector<HashedInput> inputs;
     if (opened.format != "model") inputs.push_back(hash_in_background(source));
-    console.print(Json::object({{"context", context(inputs, std::nullopt, opened.simulated)}, {"source", source}, {"quantity", albedo ? "directional_albedo" : "f"}, {"channels", channels}, {"values", rows}}));
+    console.print_json(Json::object({{"context", context(inputs, std::nullopt, opened.simulated)}, {"source", source}, {"quantity", albedo ? "directional_albedo" : "f"}, {"channels", channels}, {"values", rows}}));
   }
   return 0;
 }

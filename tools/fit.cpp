@@ -60,7 +60,7 @@ int fit_verb(const Arguments& arguments, Console& console) {
     timings.total_s = seconds(Stopwatch::now() - start);
     const Json document = fit_document(result, opened.masked, timings, std::move(where_from));
     if (!out.empty()) write_file_atomically(out, document.dump(2) + "\n");
-    if (console.json) console.print(document);
+    if (console.json) console.print_json(document);
   }
   if (!console.json)
     for (const std::string& line : fit_lines(result)) console.print(line);

@@ -19,7 +19,7 @@ void report(Console& console, const std::string& in, const std::string& out, con
     Json document = Json::object({{"context", context({hash_in_background(in)}, std::nullopt, opened.simulated)}, {"format", format.name}, {"out", out}});
     if (opened.dataset) document.set("samples", static_cast<std::int64_t>(opened.dataset->size()));
     document.set("n_masked", masked_document(opened.masked));
-    console.print(document);
+    console.print_json(document);
     return;
   }
   console.print(fmt::format("{} ({}) -> {} ({}{})", in, opened.format, out, format.name,

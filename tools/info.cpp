@@ -109,7 +109,7 @@ int info_verb(const Arguments& arguments, Console& console) {
   if (console.json) {
     Json members = Json::object();
     for (const auto& [key, value] : facts) members.set(key, value);
-    console.print(Json::object({{"context", context({hash_in_background(path)}, std::nullopt, false)}, {"file", path}, {"facts", members}}));
+    console.print_json(Json::object({{"context", context({hash_in_background(path)}, std::nullopt, false)}, {"file", path}, {"facts", members}}));
     return 0;
   }
   for (const auto& [key, value] : facts) console.print(fmt::format("{:<22} {}", key, value));

@@ -52,7 +52,7 @@ int plan_verb(const Arguments& arguments, Console& console) {
   if (console.json) {
     Json steps = Json::array();
     for (const PlanStep& step : plan.steps) steps.push_back(step_document(step));
-    console.print(Json::object({{"context", context({hash_in_background(source.plan), hash_in_background(source.bench)}, request.seed, bench.is_simulated)},
+    console.print_json(Json::object({{"context", context({hash_in_background(source.plan), hash_in_background(source.bench)}, request.seed, bench.is_simulated)},
                                 {"predicted_s", plan.predicted_s},
                                 {"travel_deg", plan.travel_deg},
                                 {"travel_bound_deg", plan.travel_bound_deg},

@@ -42,7 +42,7 @@ int reduce_verb(const Arguments& arguments, Console& console) {
   if (console.json) {
     Json components = Json::array();
     for (const auto& component : reduced.dataset->correlated) components.push_back(Json::object({{"name", component.name}, {"u", component.u}}));
-    console.print(Json::object({{"context", context({hash_in_background(in)}, std::nullopt, reduced.simulated)},
+    console.print_json(Json::object({{"context", context({hash_in_background(in)}, std::nullopt, reduced.simulated)},
                                 {"out", out},
                                 {"samples", static_cast<std::int64_t>(reduced.dataset->size())},
                                 {"n_masked", masked_document(reduced.masked)},

@@ -78,7 +78,7 @@ int sweep_verb(const Arguments& arguments, Console& console) {
 
   if (console.json) {
     const auto count = [](std::size_t n) { return Json(static_cast<std::int64_t>(n)); };
-    console.print(Json::object({{"context", context({hash_in_background(source.plan), hash_in_background(source.bench)}, bench.seed, bench.is_simulated)},
+    console.print_json(Json::object({{"context", context({hash_in_background(source.plan), hash_in_background(source.bench)}, bench.seed, bench.is_simulated)},
                                 {"run", out},
                                 {"measured", count(result.measured)},
                                 {"skipped", count(result.skipped)},
