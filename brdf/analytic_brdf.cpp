@@ -44,7 +44,8 @@ AnalyticBrdf::AnalyticBrdf(std::string_view model, Channels channels, std::vecto
     : info_(&model_info(model)), channels_(std::move(channels)), values_(std::move(values)) {
   std::vector<Fault> faults;
   if (values_.size() != channels_.size())
-    faults.push_back({std::string(model), std::to_string(values_.size()) + " parameter sets", "one per channel, " + std::to_string(channels_.size())});
+    faults.push_back(
+        {std::string(model), std::to_string(values_.size()) + " parameter sets", "one per channel, " + std::to_string(channels_.size())});
   for (const auto& set : values_) {
     if (set.size() != info_->parameters.size()) {
       faults.push_back({std::string(model), std::to_string(set.size()) + " parameters", std::to_string(info_->parameters.size())});
@@ -53,15 +54,14 @@ AnalyticBrdf::AnalyticBrdf(std::string_view model, Channels channels, std::vecto
     for (std::size_t k = 0; k < set.size(); ++k) {
       const Parameter& p = info_->parameters[k];
       if (!(set[k] >= p.lower && set[k] <= p.upper))
-        faults.push_back({std::string(p.name), std::to_string(set[k]), "a number from " + std::to_string(p.lower) + " to " + std::to_string(p.upper)});
+        faults.push_back(
+            {std::string(p.name), std::to_string(set[k]), "a number from " + std::to_string(p.lower) + " to " + std::to_string(p.upper)});
     }
   }
   if (!faults.empty()) throw Error(ErrorKind::usage, "the parameters of model '" + std::string(model) + "' are not usable", faults);
 }
 
-Symmetry AnalyticBrdf::symmetry() const {
-  return {info_->properties.isotropic, info_->properties.bilateral, info_->properties.reciprocal};
-}
+Symmetry AnalyticBrdf::symmetry() const { return {info_->properties.isotropic, info_->properties.bilateral, info_->properties.reciprocal}; }
 
 void AnalyticBrdf::eval(std::span<const Direction> wi, std::span<const Direction> wo, std::span<double> f) const {
   with_model(info_->name, [&]<class M>(M) {

@@ -17,8 +17,8 @@ HalfDifference half_difference(const GonioAngles& angles) noexcept {
   const Angle half_delta = half(delta);
   const Angle mean = half(a + b), gap = half(a - b);
   const double s = half_delta.sin(), c = half_delta.cos();
-  const double sin_difference = 2 * mean.cos() * gap.sin();        // sin a - sin b
-  const double cos_difference = -2 * mean.sin() * gap.sin();       // cos a - cos b
+  const double sin_difference = 2 * mean.cos() * gap.sin();   // sin a - sin b
+  const double cos_difference = -2 * mean.sin() * gap.sin();  // cos a - cos b
   const double sin_sum = a.sin() + b.sin(), cos_sum = a.cos() + b.cos();
   const double hx = sin_sum * c, hy = -sin_difference * s;
   const double h_radius = std::hypot(hx, hy), h_length = std::hypot(h_radius, cos_sum);
@@ -36,11 +36,12 @@ HalfDifference half_difference(const Direction& wi, const Direction& wo) noexcep
   const double hx = wi.x() + wo.x(), hy = wi.y() + wo.y(), hz = wi.z() + wo.z();
   const double vx = wi.x() - wo.x(), vy = wi.y() - wo.y(), vz = wi.z() - wo.z();
   const double h_length = std::hypot(hx, hy, hz);
-  return {angle_of(std::hypot(hx, hy), hz), angle_of(hy, hx), angle_of(std::hypot(vx, vy, vz), h_length), angle_of(hx * vy - hy * vx, -vz * h_length)};
+  return {angle_of(std::hypot(hx, hy), hz), angle_of(hy, hx), angle_of(std::hypot(vx, vy, vz), h_length),
+          angle_of(hx * vy - hy * vx, -vz * h_length)};
 }
 
 DirectionPair directions(const HalfDifference& coordinates) noexcept {
-  const auto& [theta_h, phi_h, theta_d, phi_d] = coordinates;
+  const Angle &theta_h = coordinates.theta_h, &phi_h = coordinates.phi_h, &theta_d = coordinates.theta_d, &phi_d = coordinates.phi_d;
   const auto rotate = [&](double x, double y, double z) {
     const double x1 = theta_h.cos() * x + theta_h.sin() * z;
     const double z1 = theta_h.cos() * z - theta_h.sin() * x;

@@ -23,8 +23,7 @@ void Dataset::require_consistent() const {
   const auto column = [&](const std::string& name, std::size_t length) {
     if (length != size()) faults.push_back({name, std::to_string(length) + " values", std::to_string(size()) + ", one per sample"});
   };
-  if (f.size() != channels.size())
-    faults.push_back({"f", std::to_string(f.size()) + " channels", std::to_string(channels.size())});
+  if (f.size() != channels.size()) faults.push_back({"f", std::to_string(f.size()) + " channels", std::to_string(channels.size())});
   if (!u.empty() && u.size() != channels.size())
     faults.push_back({"u", std::to_string(u.size()) + " channels", std::to_string(channels.size()) + " or none"});
   for (const auto& values : f) column("f", values.size());

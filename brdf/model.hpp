@@ -26,9 +26,9 @@ struct Parameter {
 enum class DependsOn { nothing, theta_h, psi, all };
 
 struct ModelProperties {
-  bool reciprocal;     ///< f(wi, wo) = f(wo, wi) exactly
-  bool isotropic;      ///< depends on phi_o - phi_i only
-  bool bilateral;      ///< symmetric under phi -> -phi
+  bool reciprocal;  ///< f(wi, wo) = f(wo, wi) exactly
+  bool isotropic;   ///< depends on phi_o - phi_i only
+  bool bilateral;   ///< symmetric under phi -> -phi
 };
 
 /// An analytic BRDF model: f = Σ_k linear_k · basis_k(geometry; nonlinear), in 1/sr, cosine not included.

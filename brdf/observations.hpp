@@ -43,9 +43,9 @@ enum class ConstantOver { nothing, theta_h, incidence };
 struct ObservationBlock {
   std::size_t size = 0;
   ConstantOver constant = ConstantOver::nothing;
-  double log_cos_h = 0;        ///< of the whole block, if constant == theta_h
-  std::vector<Column> f;       ///< one per channel, 1/sr; NaN where this channel has no value
-  std::vector<Column> u;       ///< one per channel, 1/sr, or empty: unknown
+  double log_cos_h = 0;   ///< of the whole block, if constant == theta_h
+  std::vector<Column> f;  ///< one per channel, 1/sr; NaN where this channel has no value
+  std::vector<Column> u;  ///< one per channel, 1/sr, or empty: unknown
   /// Which samples count: all, those with mask[k] != 0, or (MERL) those where no channel is negative.
   enum class Validity { all, mask, no_channel_negative } validity = Validity::all;
   const std::uint8_t* mask = nullptr;

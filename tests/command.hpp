@@ -53,7 +53,8 @@ inline Outcome gonio(const std::string& arguments, const std::string& in = "") {
   const Folder folder;
   write_file(folder / "in", in);
   const auto quoted = [&](const char* name) { return " '" + (folder / name).string() + "'"; };
-  const std::string command = std::string("'") + GONIO_BINARY + "' " + arguments + " <" + quoted("in") + " >" + quoted("out") + " 2>" + quoted("err");
+  const std::string command =
+      std::string("'") + GONIO_BINARY + "' " + arguments + " <" + quoted("in") + " >" + quoted("out") + " 2>" + quoted("err");
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), read_file(folder / "out"), read_file(folder / "err")};
 }

@@ -24,7 +24,9 @@ inline Direction upper_direction(Random& random) {
 
 /// Angles of the upper hemisphere in degrees, with a good share at grazing.
 inline GonioAngles gonio_pair(Random& random) {
-  const auto theta = [&] { return degrees(uniform(random, 0, 1) < 0.2 ? 90 - std::pow(10.0, uniform(random, -6, 0)) : uniform(random, 0, 90)); };
+  const auto theta = [&] {
+    return degrees(uniform(random, 0, 1) < 0.2 ? 90 - std::pow(10.0, uniform(random, -6, 0)) : uniform(random, 0, 90));
+  };
   return {theta(), degrees(uniform(random, -180, 180)), theta(), degrees(uniform(random, -180, 180))};
 }
 

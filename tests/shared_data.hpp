@@ -11,7 +11,8 @@ namespace gonio::test {
 /// `relative` below the folder of shared material (GONIO_SHARED, or `shared` beside the checkout), if it is there.
 inline std::optional<std::filesystem::path> shared_file(const std::filesystem::path& relative) {
   const char* variable = std::getenv("GONIO_SHARED");
-  const std::filesystem::path root = variable ? std::filesystem::path(variable) : std::filesystem::path(GONIO_SOURCE_DIR).parent_path() / "shared";
+  const std::filesystem::path root =
+      variable ? std::filesystem::path(variable) : std::filesystem::path(GONIO_SOURCE_DIR).parent_path() / "shared";
   if (std::filesystem::exists(root / relative)) return root / relative;
   return std::nullopt;
 }

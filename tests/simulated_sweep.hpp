@@ -23,7 +23,9 @@ inline acquisition::Bench example_bench(const std::string& name, std::uint64_t s
   return acquisition::bench_from(document, ".", name);
 }
 
-inline acquisition::PlanRequest example_plan(const std::string& name) { return acquisition::plan_from(parse_json(example_text(name), name), name); }
+inline acquisition::PlanRequest example_plan(const std::string& name) {
+  return acquisition::plan_from(parse_json(example_text(name), name), name);
+}
 
 /// The model that lies on the bench of an example file.
 inline std::shared_ptr<const AnalyticBrdf> example_sample(const acquisition::Bench& bench) {
@@ -34,7 +36,8 @@ inline std::shared_ptr<const AnalyticBrdf> example_sample(const acquisition::Ben
 }
 
 /// Plan, sweep over real sockets on the virtual clock into `path`, and reduce.
-inline Dataset measure(const acquisition::Bench& bench, const acquisition::PlanRequest& request, std::shared_ptr<const Brdf> sample, const std::filesystem::path& path) {
+inline Dataset measure(const acquisition::Bench& bench, const acquisition::PlanRequest& request, std::shared_ptr<const Brdf> sample,
+                       const std::filesystem::path& path) {
   using namespace acquisition;
   const SweepPlan plan = make_plan(request, bench);
   const auto clock = std::make_shared<VirtualClock>();

@@ -39,18 +39,21 @@ void PlanSource::require_reachable(const SweepPlan& plan_) const {
   for (const PlanStep& step : plan_.steps) {
     if (step.state != StepState::unreachable) continue;
     if (++count <= most)
-      faults.push_back({fmt::format("point ({:g}, {:g}) -> ({:g}, {:g})", step.pose.theta_i.degrees(), step.pose.phi_i.degrees(), step.pose.theta_o.degrees(), step.pose.phi_o.degrees()),
+      faults.push_back({fmt::format("point ({:g}, {:g}) -> ({:g}, {:g})", step.pose.theta_i.degrees(), step.pose.phi_i.degrees(),
+                                    step.pose.theta_o.degrees(), step.pose.phi_o.degrees()),
                         step.reason, "a pose within the limits, or --skip-unreachable"});
   }
   if (count == 0) return;
-  if (count > most) faults.push_back({plan, fmt::format("{} more unreachable points", count - most), "see gonio plan --skip-unreachable --list"});
+  if (count > most)
+    faults.push_back({plan, fmt::format("{} more unreachable points", count - most), "see gonio plan --skip-unreachable --list"});
   throw Error(ErrorKind::limit, fmt::format("{} points of the plan cannot be reached; nothing has moved", count), faults);
 }
 
 Bench bench_with_seed(const std::filesystem::path& path, std::optional<std::uint64_t> seed) {
   Bench bench = load_bench(path);
   if (!seed) return bench;
-  if (!bench.is_simulated) throw Error(ErrorKind::usage, {"--seed", "a bench that is not simulated", "a bench file with a `simulated` part"});
+  if (!bench.is_simulated)
+    throw Error(ErrorKind::usage, {"--seed", "a bench that is not simulated", "a bench file with a `simulated` part"});
   Json document = bench.document, simulated = document.at("simulated");
   simulated.set("seed", *seed);
   document.set("simulated", simulated);
@@ -59,8 +62,9 @@ Bench bench_with_seed(const std::filesystem::path& path, std::optional<std::uint
 
 std::vector<std::string> plan_lines(const SweepPlan& plan, const Bench& bench) {
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("{} steps on bench '{}': {} samples, {} dark, {} reference readings", plan.steps.size(), bench.name, plan.count(StepKind::sample, StepState::ok),
-                              plan.count(StepKind::dark, StepState::ok), plan.count(StepKind::reference, StepState::ok)));
+  lines.push_back(fmt::format("{} steps on bench '{}': {} samples, {} dark, {} reference readings", plan.steps.size(), bench.name,
+                              plan.count(StepKind::sample, StepState::ok), plan.count(StepKind::dark, StepState::ok),
+                              plan.count(StepKind::reference, StepState::ok)));
   std::map<std::string, std::size_t> reasons;
   for (const PlanStep& step : plan.steps)
     if (step.state != StepState::ok) ++reasons[fmt::format("{}: {}", name(step.state), step.reason)];
@@ -73,7 +77,8 @@ std::vector<std::string> plan_lines(const SweepPlan& plan, const Bench& bench) {
     }
     lines.push_back(fmt::format("  {:5} {}", count, reason));
   }
-  lines.push_back(fmt::format("  predicted {}; travel {:.0f}° of the slowest axis, {:.2f} times the lower bound", duration_text(plan.predicted_s), plan.travel_deg,
+  lines.push_back(fmt::format("  predicted {}; travel {:.0f}° of the slowest axis, {:.2f} times the lower bound",
+                              duration_text(plan.predicted_s), plan.travel_deg,
                               plan.travel_bound_deg > 0 ? plan.travel_deg / plan.travel_bound_deg : 1.0));
   return lines;
 }
@@ -85,7 +90,8 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {} min", minutes / 60, minutes % 60);
 }
 
-std::shared_ptr<const Brdf> simulated_sample(const Bench& bench, const std::string& bench_path, const std::string& sample, const std::vector<std::string>& parameters) {
+std::shared_ptr<const Brdf> simulated_sample(const Bench& bench, const std::string& bench_path, const std::string& sample,
+                                             const std::vector<std::string>& parameters) {
   tabulated::Opened opened;
   std::string what = sample;
   if (!sample.empty()) {

@@ -74,7 +74,9 @@ tabulated::Opened model_source(const std::string& model, const std::vector<std::
   }
   std::vector<double> set;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    if (!values[k]) faults.push_back({"--param", "no value for " + std::string(info.parameters[k].name), std::string(info.parameters[k].name) + "=VALUE"});
+    if (!values[k])
+      faults.push_back(
+          {"--param", "no value for " + std::string(info.parameters[k].name), std::string(info.parameters[k].name) + "=VALUE"});
     set.push_back(values[k].value_or(0));
   }
   if (!faults.empty()) throw Error(ErrorKind::usage, "the parameters of model '" + model + "' are not complete", faults);
@@ -86,8 +88,10 @@ tabulated::Opened model_source(const std::string& model, const std::vector<std::
 
 tabulated::Opened open_source(const std::string& source, const std::vector<std::string>& parameters, const ReadFlags& flags) {
   const auto& models = model_infos();
-  if (std::any_of(models.begin(), models.end(), [&](const ModelInfo& info) { return info.name == source; })) return model_source(source, parameters);
-  if (!parameters.empty()) throw Error(ErrorKind::usage, {"--param", "parameters for the file '" + source + "'", "--param only with a model's name"});
+  if (std::any_of(models.begin(), models.end(), [&](const ModelInfo& info) { return info.name == source; }))
+    return model_source(source, parameters);
+  if (!parameters.empty())
+    throw Error(ErrorKind::usage, {"--param", "parameters for the file '" + source + "'", "--param only with a model's name"});
   return tabulated::open_brdf(source, flags.options());
 }
 

@@ -28,7 +28,8 @@ int check_verb(const Arguments& arguments, Console& console) {
   if (!parse(app, arguments)) return 0;
   for (const std::string& part : comma_separated(rotation)) options.rotation_deg.push_back(number_from(part, "--rotation"));
   if (!options.rotation_deg.empty() && options.rotation_deg.size() != files.size())
-    throw Error(ErrorKind::usage, {"--rotation", std::to_string(options.rotation_deg.size()) + " angles", std::to_string(files.size()) + ", one per file"});
+    throw Error(ErrorKind::usage,
+                {"--rotation", std::to_string(options.rotation_deg.size()) + " angles", std::to_string(files.size()) + ", one per file"});
 
   fitting::CheckSubject subject;
   std::vector<HashedInput> inputs;
@@ -41,7 +42,8 @@ int check_verb(const Arguments& arguments, Console& console) {
     if (opened.dataset)
       subject.datasets.push_back(opened.dataset);
     else if (files.size() > 1)
-      throw Error(ErrorKind::usage, {file, opened.format + ", which is not a set of samples", "one file, or several sets of samples of the same sample rotated"});
+      throw Error(ErrorKind::usage, {file, opened.format + ", which is not a set of samples",
+                                     "one file, or several sets of samples of the same sample rotated"});
     else {
       subject.observations = opened.observations;
       subject.brdf = opened.brdf;
@@ -56,9 +58,12 @@ int check_verb(const Arguments& arguments, Console& console) {
   }
   if (!console.json)
     for (const std::string& line : check_lines(checks)) console.print(line);
-  return std::any_of(checks.begin(), checks.end(), [&](const fitting::Check& check) {
-    return check.verdict == fitting::Verdict::fail || (strict && check.verdict == fitting::Verdict::warn);
-  }) ? 1 : 0;
+  return std::any_of(checks.begin(), checks.end(),
+                     [&](const fitting::Check& check) {
+                       return check.verdict == fitting::Verdict::fail || (strict && check.verdict == fitting::Verdict::warn);
+                     })
+             ? 1
+             : 0;
 }
 
 }  // namespace gonio::tools

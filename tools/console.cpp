@@ -32,8 +32,8 @@ void Console::progress(std::string_view line) const {
 void Console::note_masked(const std::string& file, const MaskedCounts& masked) const {
   if (masked.total() == 0) return;
   std::ostringstream text;
-  text << file << ": " << masked.total() << " rows are no measurement (" << masked.nan << " nan, " << masked.missing << " missing, " << masked.below_horizon
-       << " below the horizon, " << masked.blocked << " blocked)";
+  text << file << ": " << masked.total() << " rows are no measurement (" << masked.nan << " nan, " << masked.missing << " missing, "
+       << masked.below_horizon << " below the horizon, " << masked.blocked << " blocked)";
   note(text.str());
 }
 

@@ -52,7 +52,10 @@ std::string relative_error_text(double fitted, double truth) { return fmt::forma
 }  // namespace
 
 int demo_verb(const Arguments& arguments, Console& console) {
-  CLI::App app("Measures a material on the embedded simulated bench, tabulates it, fits Blinn-Phong, checks its physics, exports it and draws the lobe.", "demo");
+  CLI::App app(
+      "Measures a material on the embedded simulated bench, tabulates it, fits Blinn-Phong, checks its physics, exports it and draws the "
+      "lobe.",
+      "demo");
   std::string folder;
   std::optional<std::uint64_t> seed;
   app.add_option("DIR", folder, "Folder for the results; may exist empty")->required();
@@ -92,13 +95,16 @@ int demo_verb(const Arguments& arguments, Console& console) {
   const fitting::FitResult fit = fitting::fit(*samples.observations, options);
   timings.fit_s = fit.fit_s;
   timings.total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  write_file_atomically(files.fit(), fit_document(fit, samples.masked, timings, context({hash_in_background(files.samples())}, bench.seed, true)).dump(2) + "\n");
+  write_file_atomically(
+      files.fit(),
+      fit_document(fit, samples.masked, timings, context({hash_in_background(files.samples())}, bench.seed, true)).dump(2) + "\n");
 
   console.note("5. Check reciprocity, isotropy, energy, positivity");
   fitting::CheckSubject subject;
   subject.datasets.push_back(samples.dataset);
   const auto checks = fitting::run_checks(subject, {});
-  write_file_atomically(files.checks(), checks_document(checks, context({hash_in_background(files.samples())}, bench.seed, true)).dump(2) + "\n");
+  write_file_atomically(files.checks(),
+                        checks_document(checks, context({hash_in_background(files.samples())}, bench.seed, true)).dump(2) + "\n");
 
   console.note("6. Export the fit on MERL's grid, draw the lobe");
   const tabulated::Opened fitted = tabulated::open_brdf(files.fit());
@@ -109,21 +115,24 @@ int demo_verb(const Arguments& arguments, Console& console) {
 
   const double total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (console.json) {
-    console.print_json(Json::object({{"context", context({hash_in_background(files.plan()), hash_in_background(files.bench())}, bench.seed, true)},
-                                {"folder", folder},
-                                {"samples", static_cast<std::int64_t>(samples.dataset->size())},
-                                {"bench_s", swept.bench_s},
-                                {"total_s", total_s},
-                                {"fit", fit_document(fit, samples.masked, timings, Json::object())},
-                                {"checks", checks_document(checks, Json::object())}}));
+    console.print_json(
+        Json::object({{"context", context({hash_in_background(files.plan()), hash_in_background(files.bench())}, bench.seed, true)},
+                      {"folder", folder},
+                      {"samples", static_cast<std::int64_t>(samples.dataset->size())},
+                      {"bench_s", swept.bench_s},
+                      {"total_s", total_s},
+                      {"fit", fit_document(fit, samples.masked, timings, Json::object())},
+                      {"checks", checks_document(checks, Json::object())}}));
     return 0;
   }
-  console.print(fmt::format("\nMeasured {} directions in {} of bench time ({:.1f} s here), on a simulated bench.", samples.dataset->size(), duration_text(swept.bench_s), total_s));
+  console.print(fmt::format("\nMeasured {} directions in {} of bench time ({:.1f} s here), on a simulated bench.", samples.dataset->size(),
+                            duration_text(swept.bench_s), total_s));
   const auto* truth = dynamic_cast<const AnalyticBrdf*>(sample.get());
   for (const std::string& line : fit_lines(fit)) console.print(line);
   if (truth != nullptr && truth->model().name == fit.model && !fit.values.empty())
     console.print(fmt::format("  against the truth: rho_d {}, rho_s {}, s {}", relative_error_text(fit.values[0][0], truth->values()[0][0]),
-                              relative_error_text(fit.values[0][1], truth->values()[0][1]), relative_error_text(fit.values[0][2], truth->values()[0][2])));
+                              relative_error_text(fit.values[0][1], truth->values()[0][1]),
+                              relative_error_text(fit.values[0][2], truth->values()[0][2])));
   console.print("Checks of the samples");
   for (const std::string& line : check_lines(checks)) console.print(line);
   console.print(fmt::format("\nIn {}:", folder));

@@ -54,8 +54,10 @@ std::vector<double> albedo_by_quadrature(const Brdf& brdf, const Direction& wi) 
 }  // namespace
 
 int eval_verb(const Arguments& arguments, Console& console) {
-  CLI::App app("Reads lines `theta_i phi_i theta_o phi_o` (degrees) from standard input and prints f per channel [1/sr, cosine not included],\n"
-               "17 digits, `nan` where nothing is known.", "eval");
+  CLI::App app(
+      "Reads lines `theta_i phi_i theta_o phi_o` (degrees) from standard input and prints f per channel [1/sr, cosine not included],\n"
+      "17 digits, `nan` where nothing is known.",
+      "eval");
   std::string source;
   std::vector<std::string> parameters;
   bool albedo = false;
@@ -83,7 +85,8 @@ int eval_verb(const Arguments& arguments, Console& console) {
       if (below)
         values.assign(opened.brdf->channels().size(), 0.0);
       else
-        values = model ? model->directional_albedo(degrees(n[0])) : albedo_by_quadrature(*opened.brdf, Direction::spherical(degrees(n[0]), degrees(n[1])));
+        values = model ? model->directional_albedo(degrees(n[0]))
+                       : albedo_by_quadrature(*opened.brdf, Direction::spherical(degrees(n[0]), degrees(n[1])));
     } else {
       const GonioAngles angles{degrees(n[0]), degrees(n[1]), degrees(n[2]), degrees(n[3])};
       values = model ? model->eval(angles) : opened.brdf->eval(angles.wi(), angles.wo());
@@ -103,7 +106,11 @@ int eval_verb(const Arguments& arguments, Console& console) {
     for (const Channel& channel : opened.brdf->channels()) channels.push_back(channel.name);
     std::vector<HashedInput> inputs;
     if (opened.format != "model") inputs.push_back(hash_in_background(source));
-    console.print_json(Json::object({{"context", context(inputs, std::nullopt, opened.simulated)}, {"source", source}, {"quantity", albedo ? "directional_albedo" : "f"}, {"channels", channels}, {"values", rows}}));
+    console.print_json(Json::object({{"context", context(inputs, std::nullopt, opened.simulated)},
+                                     {"source", source},
+                                     {"quantity", albedo ? "directional_albedo" : "f"},
+                                     {"channels", channels},
+                                     {"values", rows}}));
   }
   return 0;
 }

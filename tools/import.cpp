@@ -14,9 +14,11 @@
 namespace gonio::tools {
 namespace {
 
-void report(Console& console, const std::string& in, const std::string& out, const tabulated::Format& format, const tabulated::Opened& opened) {
+void report(Console& console, const std::string& in, const std::string& out, const tabulated::Format& format,
+            const tabulated::Opened& opened) {
   if (console.json) {
-    Json document = Json::object({{"context", context({hash_in_background(in)}, std::nullopt, opened.simulated)}, {"format", format.name}, {"out", out}});
+    Json document = Json::object(
+        {{"context", context({hash_in_background(in)}, std::nullopt, opened.simulated)}, {"format", format.name}, {"out", out}});
     if (opened.dataset) document.set("samples", static_cast<std::int64_t>(opened.dataset->size()));
     document.set("n_masked", masked_document(opened.masked));
     console.print_json(document);

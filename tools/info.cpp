@@ -40,7 +40,8 @@ Facts facts_of_run(const std::string& path) {
     done[step.kind] += accepted.contains(step.number) ? 1 : 0;
   }
   Facts facts{{"kind", "run"}, {"bench", run.bench().name}};
-  for (const auto& [kind, count] : wanted) facts.emplace_back(fmt::format("{} steps", name(kind)), fmt::format("{} of {} measured", done[kind], count));
+  for (const auto& [kind, count] : wanted)
+    facts.emplace_back(fmt::format("{} steps", name(kind)), fmt::format("{} of {} measured", done[kind], count));
   facts.emplace_back("readings", std::to_string(run.readings().size()));
   for (const auto& [key, value] : run.meta()) facts.emplace_back(key, value.size() > 100 ? value.substr(0, 100) + "…" : value);
   return facts;
@@ -55,15 +56,21 @@ Facts facts_of_setup(const std::string& path) {
     const acquisition::Bench bench = acquisition::load_bench(path);
     Facts facts{{"kind", bench.is_simulated ? "bench (simulated)" : "bench"}, {"name", bench.name}, {"kinematics", bench.kinematics}};
     for (const acquisition::Axis& axis : bench.axes)
-      facts.emplace_back("axis " + axis.name, fmt::format("{} to {}°, {}°/s, {}°/s²", axis.lower_deg, axis.upper_deg, axis.speed_deg_per_s, axis.acceleration_deg_per_s2));
-    facts.emplace_back("reference", fmt::format("{}: {} 1/sr, u {} %", bench.reference.name, bench.reference.f_per_sr, 100 * bench.reference.u_relative));
+      facts.emplace_back("axis " + axis.name, fmt::format("{} to {}°, {}°/s, {}°/s²", axis.lower_deg, axis.upper_deg, axis.speed_deg_per_s,
+                                                          axis.acceleration_deg_per_s2));
+    facts.emplace_back(
+        "reference", fmt::format("{}: {} 1/sr, u {} %", bench.reference.name, bench.reference.f_per_sr, 100 * bench.reference.u_relative));
     return facts;
   }
   if (faults_of(document, Schema::plan, path).empty()) {
     const acquisition::PlanRequest plan = acquisition::load_plan(path);
-    return {{"kind", "plan"}, {"name", plan.name}, {"incidences", std::to_string(plan.theta_i_deg.size())},
-            {"outgoing grid", fmt::format("{} x {}", plan.theta_o_deg.size(), plan.phi_o_deg.size())}, {"density points", std::to_string(plan.density_points)},
-            {"reciprocity pairs", std::to_string(plan.reciprocity_pairs)}, {"rotations", std::to_string(plan.rotations)}};
+    return {{"kind", "plan"},
+            {"name", plan.name},
+            {"incidences", std::to_string(plan.theta_i_deg.size())},
+            {"outgoing grid", fmt::format("{} x {}", plan.theta_o_deg.size(), plan.phi_o_deg.size())},
+            {"density points", std::to_string(plan.density_points)},
+            {"reciprocity pairs", std::to_string(plan.reciprocity_pairs)},
+            {"rotations", std::to_string(plan.rotations)}};
   }
   return {};
 }
@@ -79,7 +86,8 @@ Facts facts_of_brdf(const std::string& path, const ReadFlags& flags) {
   }
   facts.insert(facts.end(), opened.info.begin(), opened.info.end());
   if (opened.masked.total() > 0)
-    facts.emplace_back("no measurement", fmt::format("{} nan, {} missing, {} below the horizon, {} blocked", opened.masked.nan, opened.masked.missing, opened.masked.below_horizon, opened.masked.blocked));
+    facts.emplace_back("no measurement", fmt::format("{} nan, {} missing, {} below the horizon, {} blocked", opened.masked.nan,
+                                                     opened.masked.missing, opened.masked.below_horizon, opened.masked.blocked));
   if (opened.dataset)
     for (const auto& [key, value] : opened.dataset->provenance) facts.emplace_back(key, value);
   facts.emplace_back("simulated", opened.simulated ? "yes" : "no");
@@ -109,7 +117,8 @@ int info_verb(const Arguments& arguments, Console& console) {
   if (console.json) {
     Json members = Json::object();
     for (const auto& [key, value] : facts) members.set(key, value);
-    console.print_json(Json::object({{"context", context({hash_in_background(path)}, std::nullopt, false)}, {"file", path}, {"facts", members}}));
+    console.print_json(
+        Json::object({{"context", context({hash_in_background(path)}, std::nullopt, false)}, {"file", path}, {"facts", members}}));
     return 0;
   }
   for (const auto& [key, value] : facts) console.print(fmt::format("{:<22} {}", key, value));

@@ -47,14 +47,16 @@ std::string quoted(const std::filesystem::path& path) {
   return out + "'";
 }
 
-std::string script(const std::map<int, std::vector<Point>>& in_plane, const Dataset& samples, const AnalyticBrdf& fitted, const std::filesystem::path& png) {
+std::string script(const std::map<int, std::vector<Point>>& in_plane, const Dataset& samples, const AnalyticBrdf& fitted,
+                   const std::filesystem::path& png) {
   static const char* const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"};
   std::string text;
   int index = 0;
   for (const auto& [incidence, points] : in_plane) {
     text += fmt::format("$points{} << EOD\n", index);
     for (const Point& p : points)
-      text += fmt::format("{} {} {} {} {}\n", p.theta_o_deg, p.f, std::isnan(p.u) ? 0 : 2 * p.u, 100 * (p.f / p.fitted - 1), std::isnan(p.u) ? 0 : 200 * p.u / p.fitted);
+      text += fmt::format("{} {} {} {} {}\n", p.theta_o_deg, p.f, std::isnan(p.u) ? 0 : 2 * p.u, 100 * (p.f / p.fitted - 1),
+                          std::isnan(p.u) ? 0 : 200 * p.u / p.fitted);
     text += fmt::format("EOD\n$curve{} << EOD\n", index);
     for (int k = -894; k <= 894; ++k) {
       const double theta = k / 10.0;
@@ -65,20 +67,31 @@ std::string script(const std::map<int, std::vector<Point>>& in_plane, const Data
     ++index;
   }
   std::string parameters;
-  for (std::size_t k = 0; k < fitted.values()[0].size(); ++k) parameters += fmt::format("  {} = {:.4g}", fitted.model().parameters[k].name, fitted.values()[0][k]);
+  for (std::size_t k = 0; k < fitted.values()[0].size(); ++k)
+    parameters += fmt::format("  {} = {:.4g}", fitted.model().parameters[k].name, fitted.values()[0][k]);
   text += fmt::format("set terminal pngcairo size 1400,1000 font 'DejaVu Sans,13' background '#ffffff'\nset output {}\n", quoted(png));
-  text += "set multiplot\nset lmargin 11\nset rmargin 3\nset grid lc rgb '#dddddd' lt 1\nset xrange [-90:90]\nset xtics 15\nset border lc rgb '#444444'\nset style fill transparent solid 0.3\n";
-  text += fmt::format("set origin 0,0.36\nset size 1,0.64\nset bmargin 0.5\nset tmargin 4\nset logscale y\nset format y '%g'\nset format x ''\nset ylabel 'f_r  [1/sr]'\nset key top left spacing 1.2\nset title \"{} samples and fitted {} in the plane of incidence\\n{}{}\" noenhanced\n",
-                      samples.simulated ? "Simulated" : "Measured", fitted.model().name, parameters.substr(std::min<std::size_t>(2, parameters.size())), "   (lines: fit, points: measured, bars: k = 2)");
+  text +=
+      "set multiplot\nset lmargin 11\nset rmargin 3\nset grid lc rgb '#dddddd' lt 1\nset xrange [-90:90]\nset xtics 15\nset border lc rgb "
+      "'#444444'\nset style fill transparent solid 0.3\n";
+  text += fmt::format(
+      "set origin 0,0.36\nset size 1,0.64\nset bmargin 0.5\nset tmargin 4\nset logscale y\nset format y '%g'\nset format x ''\nset ylabel "
+      "'f_r  [1/sr]'\nset key top left spacing 1.2\nset title \"{} samples and fitted {} in the plane of incidence\\n{}{}\" noenhanced\n",
+      samples.simulated ? "Simulated" : "Measured", fitted.model().name, parameters.substr(std::min<std::size_t>(2, parameters.size())),
+      "   (lines: fit, points: measured, bars: k = 2)");
   text += "plot ";
   index = 0;
   for (const auto& [incidence, points] : in_plane) {
     const char* colour = colours[index % 6];
-    text += fmt::format("{}$curve{} using 1:2 with lines lw 1.6 lc rgb '{}' title 'incidence {:g}°', $points{} using 1:2:3 with yerrorbars pt 7 ps 0.7 lc rgb '{}' notitle",
-                        index ? ", " : "", index, colour, incidence / 10.0, index, colour);
+    text += fmt::format(
+        "{}$curve{} using 1:2 with lines lw 1.6 lc rgb '{}' title 'incidence {:g}°', $points{} using 1:2:3 with yerrorbars pt 7 ps 0.7 lc "
+        "rgb '{}' notitle",
+        index ? ", " : "", index, colour, incidence / 10.0, index, colour);
     ++index;
   }
-  text += "\nset origin 0,0\nset size 1,0.36\nset tmargin 0.5\nset bmargin 4\nunset logscale y\nunset title\nunset key\nset format x '%g°'\nset xlabel 'zenith angle of the outgoing direction (positive: specular side)'\nset ylabel 'measured / fit - 1  [%]'\nplot 0 with lines lc rgb '#444444'";
+  text +=
+      "\nset origin 0,0\nset size 1,0.36\nset tmargin 0.5\nset bmargin 4\nunset logscale y\nunset title\nunset key\nset format x "
+      "'%g°'\nset xlabel 'zenith angle of the outgoing direction (positive: specular side)'\nset ylabel 'measured / fit - 1  [%]'\nplot 0 "
+      "with lines lc rgb '#444444'";
   for (index = 0; index < static_cast<int>(in_plane.size()); ++index)
     text += fmt::format(", $points{} using 1:4:5 with yerrorbars pt 7 ps 0.6 lc rgb '{}'", index, colours[index % 6]);
   return text + "\nunset multiplot\n";
@@ -98,7 +111,8 @@ void draw_lobe(const Dataset& samples, const AnalyticBrdf& fitted, const std::fi
   std::error_code ignored;
   if (!written || status != 0 || !std::filesystem::exists(part)) {
     std::filesystem::remove(part, ignored);
-    throw Error(ErrorKind::input, {png.string(), "gnuplot did not draw it", "the program gnuplot (package gnuplot-nox, installed by tools/setup)"});
+    throw Error(ErrorKind::input,
+                {png.string(), "gnuplot did not draw it", "the program gnuplot (package gnuplot-nox, installed by tools/setup)"});
   }
   std::filesystem::rename(part, png);
 }

@@ -16,7 +16,8 @@ enum class ClockChoice { bench, real, virtual_time };  ///< bench: virtual when 
 
 /// Measures what the run still lacks. `sample` is needed only if the bench is simulated and names no port: then it is embedded.
 /// SIGINT and SIGTERM stop the arms and end with Error(interrupted); the run file stays sound.
-acquisition::SweepResult measure(acquisition::Run& run, const acquisition::Bench& bench, std::shared_ptr<const Brdf> sample, ClockChoice clock, const Console& console);
+acquisition::SweepResult measure(acquisition::Run& run, const acquisition::Bench& bench, std::shared_ptr<const Brdf> sample,
+                                 ClockChoice clock, const Console& console);
 
 /// True if the bench's devices are emulated inside this process.
 bool is_embedded(const acquisition::Bench& bench);

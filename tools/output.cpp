@@ -79,7 +79,10 @@ const tabulated::Format& format_of_name(const std::string& out) {
 
 Json masked_document(const MaskedCounts& masked) {
   const auto count = [](std::size_t n) { return Json(static_cast<std::int64_t>(n)); };
-  return Json::object({{"nan", count(masked.nan)}, {"missing", count(masked.missing)}, {"below_horizon", count(masked.below_horizon)}, {"blocked", count(masked.blocked)}});
+  return Json::object({{"nan", count(masked.nan)},
+                       {"missing", count(masked.missing)},
+                       {"below_horizon", count(masked.below_horizon)},
+                       {"blocked", count(masked.blocked)}});
 }
 
 Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, const FitTimings& timings, Json context) {
@@ -110,7 +113,8 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
       for (const double value : set) values.push_back(value);
       linear.push_back(values);
     }
-    minima.push_back(Json::object({{"nonlinear", nonlinear}, {"linear", linear}, {"cost", minimum.cost}, {"cost_ratio", minimum.cost_ratio}}));
+    minima.push_back(
+        Json::object({{"nonlinear", nonlinear}, {"linear", linear}, {"cost", minimum.cost}, {"cost_ratio", minimum.cost_ratio}}));
   }
   const auto& e = result.errors;
   Json document = Json::object({{"context", std::move(context)}, {"status", name(result.status)}});
@@ -118,7 +122,12 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
   document.set("model", result.model);
   document.set("metric", name(result.metric));
   document.set("parameters", parameters);
-  document.set("errors", Json::object({{"linear", e.linear}, {"linear_cos", e.linear_cos}, {"log", e.log}, {"log1p", e.log1p}, {"cbrt", e.cbrt}, {"chi2_per_dof", or_null(e.chi2_per_dof)}}));
+  document.set("errors", Json::object({{"linear", e.linear},
+                                       {"linear_cos", e.linear_cos},
+                                       {"log", e.log},
+                                       {"log1p", e.log1p},
+                                       {"cbrt", e.cbrt},
+                                       {"chi2_per_dof", or_null(e.chi2_per_dof)}}));
   document.set("n_observations", static_cast<std::int64_t>(result.n_observations));
   Json counts = masked_document(masked);
   const std::size_t in_fit = result.n_masked;
@@ -144,10 +153,12 @@ std::vector<std::string> fit_lines(const fitting::FitResult& result) {
     lines.push_back(fmt::format("  {:<8} {:<8} {:<26} {}", p.name, channel, value, interval_text(p)));
   }
   const auto& e = result.errors;
-  lines.push_back(fmt::format("  rms error: linear {:.4g}, linear-cos {:.4g}, log {:.4g}, log1p {:.4g}, cbrt {:.4g}{}", e.linear, e.linear_cos, e.log, e.log1p, e.cbrt,
+  lines.push_back(fmt::format("  rms error: linear {:.4g}, linear-cos {:.4g}, log {:.4g}, log1p {:.4g}, cbrt {:.4g}{}", e.linear,
+                              e.linear_cos, e.log, e.log1p, e.cbrt,
                               e.chi2_per_dof ? fmt::format("; chi2 per degree of freedom {:.3f}", *e.chi2_per_dof) : ""));
   for (const auto& minimum : result.other_minima)
-    lines.push_back(fmt::format("  another minimum at {} with {:.4g} times the cost", minimum.nonlinear.empty() ? 0.0 : minimum.nonlinear.front(), minimum.cost_ratio));
+    lines.push_back(fmt::format("  another minimum at {} with {:.4g} times the cost",
+                                minimum.nonlinear.empty() ? 0.0 : minimum.nonlinear.front(), minimum.cost_ratio));
   for (const auto& line : check_lines(result.checks)) lines.push_back(line);
   return lines;
 }

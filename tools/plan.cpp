@@ -52,18 +52,20 @@ int plan_verb(const Arguments& arguments, Console& console) {
   if (console.json) {
     Json steps = Json::array();
     for (const PlanStep& step : plan.steps) steps.push_back(step_document(step));
-    console.print_json(Json::object({{"context", context({hash_in_background(source.plan), hash_in_background(source.bench)}, request.seed, bench.is_simulated)},
-                                {"predicted_s", plan.predicted_s},
-                                {"travel_deg", plan.travel_deg},
-                                {"travel_bound_deg", plan.travel_bound_deg},
-                                {"steps", steps}}));
+    console.print_json(Json::object(
+        {{"context", context({hash_in_background(source.plan), hash_in_background(source.bench)}, request.seed, bench.is_simulated)},
+         {"predicted_s", plan.predicted_s},
+         {"travel_deg", plan.travel_deg},
+         {"travel_bound_deg", plan.travel_bound_deg},
+         {"steps", steps}}));
     return 0;
   }
   for (const std::string& line : plan_lines(plan, bench)) console.print(line);
   if (list)
     for (const PlanStep& step : plan.steps)
-      console.print(fmt::format("{:6} {:<9} ({:g}, {:g}) -> ({:g}, {:g})  {}{}", step.number, name(step.kind), step.pose.theta_i.degrees(), step.pose.phi_i.degrees(),
-                                step.pose.theta_o.degrees(), step.pose.phi_o.degrees(), name(step.state), step.reason.empty() ? "" : ": " + step.reason));
+      console.print(fmt::format("{:6} {:<9} ({:g}, {:g}) -> ({:g}, {:g})  {}{}", step.number, name(step.kind), step.pose.theta_i.degrees(),
+                                step.pose.phi_i.degrees(), step.pose.theta_o.degrees(), step.pose.phi_o.degrees(), name(step.state),
+                                step.reason.empty() ? "" : ": " + step.reason));
   return 0;
 }
 

@@ -27,8 +27,10 @@ tabulated::Opened reduced_run(const std::filesystem::path& path) {
 }
 
 int reduce_verb(const Arguments& arguments, Console& console) {
-  CLI::App app("Turns raw readings into samples: dark subtracted, drift corrected, relative to the white in its own pose, with independent\n"
-               "uncertainty per sample and named shared components.", "reduce");
+  CLI::App app(
+      "Turns raw readings into samples: dark subtracted, drift corrected, relative to the white in its own pose, with independent\n"
+      "uncertainty per sample and named shared components.",
+      "reduce");
   std::string in, out;
   app.add_option("RUN", in, "Run file (.gonio)")->required();
   app.add_option("--out", out, "Output: NAME.csv or NAME.brdf.exr")->required();
@@ -41,16 +43,18 @@ int reduce_verb(const Arguments& arguments, Console& console) {
   format.write(reduced, out, {});
   if (console.json) {
     Json components = Json::array();
-    for (const auto& component : reduced.dataset->correlated) components.push_back(Json::object({{"name", component.name}, {"u", component.u}}));
+    for (const auto& component : reduced.dataset->correlated)
+      components.push_back(Json::object({{"name", component.name}, {"u", component.u}}));
     console.print_json(Json::object({{"context", context({hash_in_background(in)}, std::nullopt, reduced.simulated)},
-                                {"out", out},
-                                {"samples", static_cast<std::int64_t>(reduced.dataset->size())},
-                                {"n_masked", masked_document(reduced.masked)},
-                                {"correlated", components}}));
+                                     {"out", out},
+                                     {"samples", static_cast<std::int64_t>(reduced.dataset->size())},
+                                     {"n_masked", masked_document(reduced.masked)},
+                                     {"correlated", components}}));
     return 0;
   }
   console.print(fmt::format("{} -> {}: {} samples", in, out, reduced.dataset->size()));
-  for (const auto& component : reduced.dataset->correlated) console.print(fmt::format("  shared by all samples: {} {:.3g} %", component.name, 100 * component.u));
+  for (const auto& component : reduced.dataset->correlated)
+    console.print(fmt::format("  shared by all samples: {} {:.3g} %", component.name, 100 * component.u));
   return 0;
 }
 

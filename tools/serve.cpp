@@ -17,13 +17,16 @@ namespace gonio::tools {
 using namespace gonio::acquisition;
 
 int serve_verb(const Arguments& arguments, Console& console) {
-  CLI::App app("Emulates the drives (Modbus TCP) and the power meter (SCPI) of a bench on loopback until stopped. Prints one line\n"
-               "{\"ready\":true,\"modbus\":PORT,\"scpi\":PORT}. The ports are those of the bench file, or any free ones.", "serve");
+  CLI::App app(
+      "Emulates the drives (Modbus TCP) and the power meter (SCPI) of a bench on loopback until stopped. Prints one line\n"
+      "{\"ready\":true,\"modbus\":PORT,\"scpi\":PORT}. The ports are those of the bench file, or any free ones.",
+      "serve");
   std::string path, clock_name = "real", sample;
   std::vector<std::string> parameters;
   std::optional<std::uint64_t> seed;
   app.add_option("BENCH", path, "Bench file (JSON)")->required();
-  app.add_option("--clock", clock_name, "real (default), or virtual: time moves only as the client sleeps")->check(CLI::IsMember({"real", "virtual"}));
+  app.add_option("--clock", clock_name, "real (default), or virtual: time moves only as the client sleeps")
+      ->check(CLI::IsMember({"real", "virtual"}));
   app.add_option("--sample", sample, "A model's name or a BRDF file instead of the bench file's sample");
   app.add_option("--param", parameters, "NAME=VALUE of the sample's model")->take_all();
   app.add_option("--seed", seed, "Another seed than the bench file's");

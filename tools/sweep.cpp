@@ -27,7 +27,8 @@ Endpoint endpoint_from(const std::string& text, const std::string& flag) {
     port = text.substr(colon + 1);
   }
   const double number = number_from(port, flag);
-  if (!(number >= 1 && number <= 65535) || number != static_cast<int>(number)) throw Error(ErrorKind::usage, {flag, "'" + text + "'", "HOST:PORT with a port from 1 to 65535"});
+  if (!(number >= 1 && number <= 65535) || number != static_cast<int>(number))
+    throw Error(ErrorKind::usage, {flag, "'" + text + "'", "HOST:PORT with a port from 1 to 65535"});
   endpoint.port = static_cast<int>(number);
   return endpoint;
 }
@@ -35,8 +36,10 @@ Endpoint endpoint_from(const std::string& text, const std::string& flag) {
 /// The run must have been started with this plan and this bench.
 void require_same(const Run& run, const Bench& bench, const PlanRequest& request, const std::string& path) {
   std::vector<Fault> faults;
-  if (run.bench().sha256 != bench.sha256) faults.push_back({path, "a run on another bench file (sha256 " + run.bench().sha256 + ")", "sha256 " + bench.sha256});
-  if (run.request().sha256 != request.sha256) faults.push_back({path, "a run of another plan file (sha256 " + run.request().sha256 + ")", "sha256 " + request.sha256});
+  if (run.bench().sha256 != bench.sha256)
+    faults.push_back({path, "a run on another bench file (sha256 " + run.bench().sha256 + ")", "sha256 " + bench.sha256});
+  if (run.request().sha256 != request.sha256)
+    faults.push_back({path, "a run of another plan file (sha256 " + run.request().sha256 + ")", "sha256 " + request.sha256});
   if (!faults.empty()) throw Error(ErrorKind::input, "this run cannot be resumed with these files", faults);
 }
 
@@ -78,17 +81,18 @@ int sweep_verb(const Arguments& arguments, Console& console) {
 
   if (console.json) {
     const auto count = [](std::size_t n) { return Json(static_cast<std::int64_t>(n)); };
-    console.print_json(Json::object({{"context", context({hash_in_background(source.plan), hash_in_background(source.bench)}, bench.seed, bench.is_simulated)},
-                                {"run", out},
-                                {"measured", count(result.measured)},
-                                {"skipped", count(result.skipped)},
-                                {"masked", count(result.masked)},
-                                {"retried", count(result.retried)},
-                                {"bench_s", result.bench_s}}));
+    console.print_json(Json::object(
+        {{"context", context({hash_in_background(source.plan), hash_in_background(source.bench)}, bench.seed, bench.is_simulated)},
+         {"run", out},
+         {"measured", count(result.measured)},
+         {"skipped", count(result.skipped)},
+         {"masked", count(result.masked)},
+         {"retried", count(result.retried)},
+         {"bench_s", result.bench_s}}));
     return 0;
   }
-  console.print(fmt::format("{}: {} steps measured, {} had been measured before, {} masked, {} readings retried; bench time {}", out, result.measured, result.skipped, result.masked,
-                            result.retried, duration_text(result.bench_s)));
+  console.print(fmt::format("{}: {} steps measured, {} had been measured before, {} masked, {} readings retried; bench time {}", out,
+                            result.measured, result.skipped, result.masked, result.retried, duration_text(result.bench_s)));
   return 0;
 }
 

@@ -15,8 +15,11 @@ namespace gonio {
 /// Energy: ρd + ρs A(0;s) <= 1.
 struct BlinnPhong {
   static constexpr std::string_view name = "blinn-phong";
-  static constexpr std::string_view citation = "J. F. Blinn, Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 1977; (s+8)/(8 pi) as in T. Akenine-Moeller, E. Haines, N. Hoffman, Real-Time Rendering, 3rd ed., 2008";
-  static constexpr std::array<Parameter, 3> parameters{{{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1", 0, 1e6, true}, {"s", "1", 0, 1e9, false}}};
+  static constexpr std::string_view citation =
+      "J. F. Blinn, Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 1977; (s+8)/(8 pi) as in T. Akenine-Moeller, E. "
+      "Haines, N. Hoffman, Real-Time Rendering, 3rd ed., 2008";
+  static constexpr std::array<Parameter, 3> parameters{
+      {{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1", 0, 1e6, true}, {"s", "1", 0, 1e9, false}}};
   static constexpr DependsOn depends_on = DependsOn::theta_h;
   static constexpr ModelProperties properties{true, true, true};
 

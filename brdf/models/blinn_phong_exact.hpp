@@ -14,8 +14,11 @@ namespace gonio {
 /// f = ρd/π + ρs (s+2)(s+4)/(8π(2^{-s/2}+s)) cos^s θh. Energy: ρd + ρs <= 1.
 struct BlinnPhongExact {
   static constexpr std::string_view name = "blinn-phong-exact";
-  static constexpr std::string_view citation = "J. F. Blinn, Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 1977; normalisation F. Giesen, Phong Normalization Factor Derivation, 2009";
-  static constexpr std::array<Parameter, 3> parameters{{{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1", 0, 1e6, true}, {"s", "1", 0, 1e9, false}}};
+  static constexpr std::string_view citation =
+      "J. F. Blinn, Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 1977; normalisation F. Giesen, Phong "
+      "Normalization Factor Derivation, 2009";
+  static constexpr std::array<Parameter, 3> parameters{
+      {{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1", 0, 1e6, true}, {"s", "1", 0, 1e9, false}}};
   static constexpr DependsOn depends_on = DependsOn::theta_h;
   static constexpr ModelProperties properties{true, true, true};
 

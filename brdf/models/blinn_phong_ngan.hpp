@@ -15,7 +15,8 @@ namespace gonio {
 struct BlinnPhongNgan {
   static constexpr std::string_view name = "blinn-phong-ngan";
   static constexpr std::string_view citation = "A. Ngan, F. Durand, W. Matusik, Experimental Analysis of BRDF Models, EGSR 2005";
-  static constexpr std::array<Parameter, 3> parameters{{{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1", 0, 1e6, true}, {"s", "1", 0, 1e9, false}}};
+  static constexpr std::array<Parameter, 3> parameters{
+      {{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1", 0, 1e6, true}, {"s", "1", 0, 1e9, false}}};
   static constexpr DependsOn depends_on = DependsOn::theta_h;
   static constexpr ModelProperties properties{true, true, true};
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <numbers>
 
-#include "brdf/phong_albedo.hpp"
 #include "brdf/model.hpp"
+#include "brdf/phong_albedo.hpp"
 
 namespace gonio {
 
@@ -14,8 +14,10 @@ namespace gonio {
 /// (s+2)/(2π) is exact at normal incidence only; the albedo falls towards grazing. Energy: ρd + ρs <= 1, exactly.
 struct Phong {
   static constexpr std::string_view name = "phong";
-  static constexpr std::string_view citation = "E. P. Lafortune, Y. D. Willems, Using the Modified Phong Reflectance Model for Physically Based Rendering, report CW197, 1994";
-  static constexpr std::array<Parameter, 3> parameters{{{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1", 0, 1e6, true}, {"s", "1", 0, 1e9, false}}};
+  static constexpr std::string_view citation =
+      "E. P. Lafortune, Y. D. Willems, Using the Modified Phong Reflectance Model for Physically Based Rendering, report CW197, 1994";
+  static constexpr std::array<Parameter, 3> parameters{
+      {{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1", 0, 1e6, true}, {"s", "1", 0, 1e9, false}}};
   static constexpr DependsOn depends_on = DependsOn::psi;
   static constexpr ModelProperties properties{true, true, true};
 

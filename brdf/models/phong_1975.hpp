@@ -5,8 +5,8 @@
 #include <array>
 #include <numbers>
 
-#include "brdf/phong_albedo.hpp"
 #include "brdf/model.hpp"
+#include "brdf/phong_albedo.hpp"
 
 namespace gonio {
 
@@ -16,7 +16,8 @@ namespace gonio {
 struct Phong1975 {
   static constexpr std::string_view name = "phong-1975";
   static constexpr std::string_view citation = "B. T. Phong, Illumination for Computer Generated Pictures, CACM 18(6), 1975";
-  static constexpr std::array<Parameter, 3> parameters{{{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1/sr", 0, 1e6, true}, {"s", "1", 0, 1e9, false}}};
+  static constexpr std::array<Parameter, 3> parameters{
+      {{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1/sr", 0, 1e6, true}, {"s", "1", 0, 1e9, false}}};
   static constexpr DependsOn depends_on = DependsOn::psi;
   static constexpr ModelProperties properties{true, true, true};
 

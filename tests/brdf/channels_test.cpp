@@ -6,7 +6,8 @@
 using namespace gonio;
 
 TEST_CASE("quantities are found by the name they print") {
-  for (const Quantity q : {Quantity::f, Quantity::f_cos, Quantity::reflectance_factor, Quantity::signal_ratio}) CHECK(quantity_named(name(q)) == q);
+  for (const Quantity q : {Quantity::f, Quantity::f_cos, Quantity::reflectance_factor, Quantity::signal_ratio})
+    CHECK(quantity_named(name(q)) == q);
   CHECK_FALSE(quantity_named("radiance").has_value());
 }
 

@@ -21,8 +21,8 @@ TEST_CASE("half/difference coordinates from angles and from vectors agree") {
   constexpr double vector_rounding = 1e-12;
   double worst = 0;
   for (int k = 0; k < 20000; ++k) {
-    const GonioAngles a{degrees(test::uniform(random, 1, 89)), degrees(test::uniform(random, -180, 180)), degrees(test::uniform(random, 1, 89)),
-                        degrees(test::uniform(random, -180, 180))};
+    const GonioAngles a{degrees(test::uniform(random, 1, 89)), degrees(test::uniform(random, -180, 180)),
+                        degrees(test::uniform(random, 1, 89)), degrees(test::uniform(random, -180, 180))};
     const HalfDifference from_angles = half_difference(a), from_vectors = half_difference(a.wi(), a.wo());
     worst = std::fmax(worst, std::fabs(from_angles.theta_h.radians() - from_vectors.theta_h.radians()));
     worst = std::fmax(worst, std::fabs(from_angles.theta_d.radians() - from_vectors.theta_d.radians()));

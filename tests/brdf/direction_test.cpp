@@ -13,7 +13,9 @@ using namespace gonio;
 
 // Directions of different frames do not mix.
 template <class A, class B>
-concept dottable = requires(A a, B b) { dot(a, b); };
+concept dottable = requires(A a, B b) {
+  dot(a, b);
+};
 static_assert(dottable<Direction, Direction>);
 static_assert(!dottable<Direction, UnitVector<BenchFrame>>);
 static_assert(!std::is_convertible_v<UnitVector<BenchFrame>, Direction>);

@@ -15,8 +15,8 @@ TEST_CASE("the lobe cosines from angles and from vectors agree") {
   constexpr double rounding_only = 4e-15;  // a few rounding errors of quantities of order 1
   double worst = 0;
   for (int k = 0; k < 20000; ++k) {
-    const GonioAngles a{degrees(test::uniform(random, 1, 89)), degrees(test::uniform(random, -180, 180)), degrees(test::uniform(random, 1, 89)),
-                        degrees(test::uniform(random, -180, 180))};
+    const GonioAngles a{degrees(test::uniform(random, 1, 89)), degrees(test::uniform(random, -180, 180)),
+                        degrees(test::uniform(random, 1, 89)), degrees(test::uniform(random, -180, 180))};
     const LobeGeometry x = lobe_geometry(a), y = lobe_geometry(a.wi(), a.wo());
     worst = std::fmax(worst, std::fabs(std::exp(x.log_cos_h) - std::exp(y.log_cos_h)));
     worst = std::fmax(worst, std::fabs(std::exp(x.log_cos_psi) - std::exp(y.log_cos_psi)));

@@ -46,7 +46,9 @@ struct Files {
     test::write_file(folder / "plan.json", std::string(example_text("demo.plan.json")));
   }
   std::string path(const std::string& name) const { return "'" + (folder / name).string() + "'"; }
-  std::string sweep() const { return "sweep " + path("plan.json") + " --bench " + path("bench.json") + " --out " + path("run.gonio") + " --quiet "; }
+  std::string sweep() const {
+    return "sweep " + path("plan.json") + " --bench " + path("bench.json") + " --out " + path("run.gonio") + " --quiet ";
+  }
 };
 
 }  // namespace

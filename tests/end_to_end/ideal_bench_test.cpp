@@ -24,7 +24,8 @@ TEST_CASE("an ideal bench gives the model at the read-back pose to 1e-12, and th
     worst_angle = std::fmax(worst_angle, std::fabs(data.angles[k].theta_i.degrees() - data.extra.at("commanded_theta_i_deg")[k]));
     worst_angle = std::fmax(worst_angle, std::fabs(data.angles[k].theta_o.degrees() - data.extra.at("commanded_theta_o_deg")[k]));
   }
-  WARN("worst relative error " << worst << ", worst zenith angle " << worst_angle << "° from the asked one, over " << data.size() << " samples");
+  WARN("worst relative error " << worst << ", worst zenith angle " << worst_angle << "° from the asked one, over " << data.size()
+                               << " samples");
   CHECK(worst < rounding_only);
   CHECK(worst_angle <= half_count_deg);
 }

@@ -62,9 +62,18 @@ TEST_CASE("a sweep killed at 100 random instants and resumed reads bit for bit w
   const Json ready = parse_json(server.line(), "ready line");
   REQUIRE(ready.at("ready").boolean());
   const auto command = [&](const std::string& out, bool resume) {
-    std::vector<std::string> arguments{binary, "sweep", plan, "--bench", bench, "--out", (folder / out).string(), "--quiet",
-                                       "--modbus", "127.0.0.1:" + std::to_string(ready.at("modbus").integer()),
-                                       "--scpi", "127.0.0.1:" + std::to_string(ready.at("scpi").integer())};
+    std::vector<std::string> arguments{binary,
+                                       "sweep",
+                                       plan,
+                                       "--bench",
+                                       bench,
+                                       "--out",
+                                       (folder / out).string(),
+                                       "--quiet",
+                                       "--modbus",
+                                       "127.0.0.1:" + std::to_string(ready.at("modbus").integer()),
+                                       "--scpi",
+                                       "127.0.0.1:" + std::to_string(ready.at("scpi").integer())};
     if (resume) arguments.emplace_back("--resume");
     return arguments;
   };

@@ -12,7 +12,8 @@ TEST_CASE("a ten-hour sweep gives the same file for the same seed, and another f
   test::write_file(folder / "bench.json", std::string(example_text("demo.bench.json")));
   test::write_file(folder / "plan.json", std::string(example_text("ten-hours.plan.json")));
   const auto sweep = [&](const std::string& out, const std::string& flags) {
-    const auto outcome = gonio("sweep '" + (folder / "plan.json").string() + "' --bench '" + (folder / "bench.json").string() + "' --out '" + (folder / out).string() + "' --json " + flags);
+    const auto outcome = gonio("sweep '" + (folder / "plan.json").string() + "' --bench '" + (folder / "bench.json").string() +
+                               "' --out '" + (folder / out).string() + "' --json " + flags);
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     return outcome.json();

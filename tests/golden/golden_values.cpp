@@ -52,7 +52,8 @@ std::vector<Row> rows(const std::filesystem::path& path) {
   for (int line = 1; std::getline(file, text); ++line) {
     if (text.empty() || text[0] == '#' || text.starts_with("quantity")) continue;
     const auto cells = split(text, ',');
-    out.push_back({line, cells.at(0), cells.at(1), cells.at(2), cells.at(3), cells.at(4), cells.at(6).empty() ? 0.0 : std::stod(cells.at(6))});
+    out.push_back(
+        {line, cells.at(0), cells.at(1), cells.at(2), cells.at(3), cells.at(4), cells.at(6).empty() ? 0.0 : std::stod(cells.at(6))});
   }
   return out;
 }
@@ -131,8 +132,8 @@ TEST_CASE("every golden row is met within 64 eps (1 + kappa)") {
   for (const Row& row : rows(*path)) {
     const double error = error_of(row), tolerance = factor * eps * (1 + row.kappa);
     worst = std::fmax(worst, error / tolerance);
-    INFO("line " << row.line << ": " << row.quantity << " s=" << row.s << " theta=" << row.theta << " extra=" << row.extra << " golden " << row.value
-                 << ": error " << error << ", allowed " << tolerance);
+    INFO("line " << row.line << ": " << row.quantity << " s=" << row.s << " theta=" << row.theta << " extra=" << row.extra << " golden "
+                 << row.value << ": error " << error << ", allowed " << tolerance);
     CHECK(error <= tolerance);
     ++seen[row.quantity];
   }

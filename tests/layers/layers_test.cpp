@@ -35,7 +35,9 @@ const std::map<std::string, Layer>& table() {
       {"acquisition/usb", {{"acquisition", "brdf", "data-schemas"}, {"libusb"}}},
       {"acquisition/camera", {{"acquisition", "brdf", "data-schemas"}, {"opencv2/"}}},
       {"acquisition/simulated", {{"acquisition", "scene", "brdf", "data-schemas"}, {"modbus"}}},
-      {"tools", {{"brdf", "data-schemas", "tabulated", "fitting", "scene", "acquisition", "acquisition/modbus", "acquisition/simulated"}, {"CLI/", "png.h"}}},
+      {"tools",
+       {{"brdf", "data-schemas", "tabulated", "fitting", "scene", "acquisition", "acquisition/modbus", "acquisition/simulated"},
+        {"CLI/", "png.h"}}},
   };
   return layers;
 }
@@ -75,9 +77,10 @@ std::vector<Include> includes(const std::string& text) {
 
 /// C++ and POSIX headers: no slash and no extension, or a C/POSIX name.
 bool is_standard(const std::string& name) {
-  static const std::set<std::string> posix{"unistd.h",     "fcntl.h",   "netdb.h",   "poll.h",      "pthread.h", "signal.h",
-                                           "netinet/in.h", "sys/mman.h", "sys/stat.h", "sys/socket.h", "sys/wait.h", "arpa/inet.h",
-                                           "netinet/tcp.h", "sys/types.h", "sys/resource.h", "sys/ioctl.h", "sys/time.h", "sys/file.h", "termios.h", "sys/prctl.h", "sys/uio.h"};
+  static const std::set<std::string> posix{"unistd.h",      "fcntl.h",     "netdb.h",        "poll.h",       "pthread.h",  "signal.h",
+                                           "netinet/in.h",  "sys/mman.h",  "sys/stat.h",     "sys/socket.h", "sys/wait.h", "arpa/inet.h",
+                                           "netinet/tcp.h", "sys/types.h", "sys/resource.h", "sys/ioctl.h",  "sys/time.h", "sys/file.h",
+                                           "termios.h",     "sys/prctl.h", "sys/uio.h"};
   return posix.contains(name) || name.find_first_of("./") == std::string::npos;
 }
 
@@ -93,7 +96,8 @@ std::vector<std::string> faults(const std::string& path, const std::string& text
       if (list[k].name.starts_with("catch2/") && path != "tests/check.hpp") out.push_back(path + ": includes Catch2 past tests/check.hpp");
       if (list[k].name == "tests/check.hpp" && k + 1 != list.size()) out.push_back(path + ": tests/check.hpp is not the last include");
     }
-    if (is_test && path != "tests/check.hpp" && std::none_of(list.begin(), list.end(), [](const Include& i) { return i.name == "tests/check.hpp"; }))
+    if (is_test && path != "tests/check.hpp" &&
+        std::none_of(list.begin(), list.end(), [](const Include& i) { return i.name == "tests/check.hpp"; }))
       out.push_back(path + ": a test without tests/check.hpp");
     return out;
   }
@@ -108,7 +112,9 @@ std::vector<std::string> faults(const std::string& path, const std::string& text
       continue;
     }
     if (is_standard(include.name)) continue;
-    const bool third_party = include.name.starts_with("fmt/") || std::any_of(allowed.sources.begin(), allowed.sources.end(), [&](const std::string& start) { return include.name.starts_with(start); });
+    const bool third_party =
+        include.name.starts_with("fmt/") || std::any_of(allowed.sources.begin(), allowed.sources.end(),
+                                                        [&](const std::string& start) { return include.name.starts_with(start); });
     if (!third_party) out.push_back(path + ": " + layer + " may not include <" + include.name + ">");
     if (third_party && is_header(path)) out.push_back(path + ": <" + include.name + "> stands in a header");
   }
@@ -147,10 +153,13 @@ TEST_CASE("every source file starts with its licence and the top level holds onl
     INFO(path);
     CHECK(text.starts_with("// SPDX-License-Identifier: BSD-3-Clause\n"));
   }
-  const std::set<std::string> known{"brdf", "data-schemas", "tabulated", "fitting", "scene", "acquisition", "tools", "tests", "docs", "cmake"};
+  const std::set<std::string> known{"brdf",        "data-schemas", "tabulated", "fitting", "scene",
+                                    "acquisition", "tools",        "tests",     "docs",    "cmake"};
   for (const auto& entry : fs::directory_iterator(GONIO_SOURCE_DIR)) {
     const std::string name = entry.path().filename();
-    if (!entry.is_directory() || name.starts_with(".") || name.starts_with("build") || name == "b" || entry.path() == fs::path(GONIO_BINARY_DIR)) continue;
+    if (!entry.is_directory() || name.starts_with(".") || name.starts_with("build") || name == "b" ||
+        entry.path() == fs::path(GONIO_BINARY_DIR))
+      continue;
     INFO(name);
     // a build tree of any name is fine; anything else has to be in the table
     CHECK((known.contains(name) || fs::exists(entry.path() / "CMakeCache.txt")));

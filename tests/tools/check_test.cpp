@@ -25,7 +25,8 @@ std::string pairs(double asymmetry) {
   std::string text = "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value,u_value\n";
   const auto row = [&](double ti, double to, double phi, double factor) {
     const double f = model.eval(GonioAngles{degrees(ti), degrees(0), degrees(to), degrees(phi)})[0] * factor;
-    text += std::to_string(ti) + ",0," + std::to_string(to) + "," + std::to_string(phi) + "," + std::to_string(f) + "," + std::to_string(0.005 * f) + "\n";
+    text += std::to_string(ti) + ",0," + std::to_string(to) + "," + std::to_string(phi) + "," + std::to_string(f) + "," +
+            std::to_string(0.005 * f) + "\n";
   };
   for (int ti = 10; ti <= 60; ti += 10)
     for (int to = 10; to < ti; to += 10)

@@ -29,8 +29,9 @@ TEST_CASE("wrong usage exits 2 and says what was wanted") {
 }
 
 TEST_CASE("a file that is not there exits 3, with nothing on standard output") {
-  for (const char* verb : {"fit /nowhere.csv --model phong", "check /nowhere.csv", "info /nowhere.csv", "import /nowhere.csv --out /tmp/x.csv",
-                           "reduce /nowhere.gonio --out /tmp/x.csv", "plan /nowhere.json --bench /nowhere.json", "serve /nowhere.json"}) {
+  for (const char* verb :
+       {"fit /nowhere.csv --model phong", "check /nowhere.csv", "info /nowhere.csv", "import /nowhere.csv --out /tmp/x.csv",
+        "reduce /nowhere.gonio --out /tmp/x.csv", "plan /nowhere.json --bench /nowhere.json", "serve /nowhere.json"}) {
     const auto outcome = gonio(verb);
     INFO(verb << ": " << outcome.err);
     CHECK(outcome.code == 3);

@@ -11,7 +11,8 @@ using namespace gonio;
 using test::gonio;
 
 TEST_CASE("eval prints a model's values with 17 digits, line by line") {
-  const auto outcome = gonio("eval blinn-phong --param rho_d=.05 --param rho_s=.93 --param s=8.764", "# a comment\n30 0 30 180\n\n60 10 20 250\n95 0 10 0\n");
+  const auto outcome = gonio("eval blinn-phong --param rho_d=.05 --param rho_s=.93 --param s=8.764",
+                             "# a comment\n30 0 30 180\n\n60 10 20 250\n95 0 10 0\n");
   REQUIRE(outcome.code == 0);
   const AnalyticBrdf model("blinn-phong", single_channel("value"), {{0.05, 0.93, 8.764}});
   std::istringstream lines(outcome.out);

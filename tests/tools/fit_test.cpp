@@ -32,10 +32,16 @@ TEST_CASE("fit gives the published parameters of the vegetation data for every m
     double rho_d, rho_s, s;
   };
   // log: published with the data (ρd .53 ρs .28 s 7.31) and refitted independently; the others refitted independently.
-  const Row rows[] = {{"log", .5340, .2840, 7.314}, {"linear", .6249, .3513, 6.328}, {"linear-cos", .6304, .2020, 8.225}, {"cbrt", .5630, .3032, 7.032}, {"log1p", .6165, .2113, 8.191}};
+  const Row rows[] = {{"log", .5340, .2840, 7.314},
+                      {"linear", .6249, .3513, 6.328},
+                      {"linear-cos", .6304, .2020, 8.225},
+                      {"cbrt", .5630, .3032, 7.032},
+                      {"log1p", .6165, .2113, 8.191}};
   constexpr double last_digit = 1e-3;
   for (const Row& row : rows) {
-    const auto outcome = gonio("fit '" + path->string() + "' --columns theta_i_deg=1,phi_i_deg=2,theta_o_deg=3,phi_o_deg=4,value=5 --model phong --json --metric " + row.metric);
+    const auto outcome =
+        gonio("fit '" + path->string() +
+              "' --columns theta_i_deg=1,phi_i_deg=2,theta_o_deg=3,phi_o_deg=4,value=5 --model phong --json --metric " + row.metric);
     INFO(row.metric << ": " << outcome.err);
     REQUIRE(outcome.code == 0);
     const Json document = outcome.json();
