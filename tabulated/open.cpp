@@ -9,6 +9,7 @@
 
 #include "brdf/error.hpp"
 #include "tabulated/csv.hpp"
+#include "tabulated/merl.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -20,6 +21,12 @@ void write_samples_as_csv(const Opened& opened, const std::filesystem::path& pat
   if (!opened.dataset)
     throw Error(ErrorKind::input, {path.string(), fmt::format("a {} without samples", opened.format), "samples to write as csv"});
   write_csv(*opened.dataset, path);
+}
+
+void write_brdf_as_merl(const Opened& opened, const std::filesystem::path& path, const WriteOptions& options) {
+  if (!opened.brdf)
+    throw Error(ErrorKind::input, {path.string(), fmt::format("a {} that cannot be evaluated", opened.format), "a model or a table"});
+  write_merl(*opened.brdf, path, options, opened.format, opened.simulated);
 }
 
 std::string known_formats() {
@@ -42,6 +49,7 @@ std::string head_of(const std::filesystem::path& path) {
 const std::vector<Format>& formats() {
   // In the order of recognition: text comes last because anything readable could be it.
   static const std::vector<Format> list{
+      {"merl", "90 x 90 x 180 half/difference table of red, green, blue (.binary)", recognises_merl, open_merl, write_brdf_as_merl},
       {"csv", "samples as text: theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg, values and uncertainties", recognises_csv, open_csv,
        write_samples_as_csv},
   };
