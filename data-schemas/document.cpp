@@ -20,6 +20,14 @@ std::string read_file(const std::filesystem::path& path) {
   return bytes;
 }
 
+Json load_document(const std::filesystem::path& path, Schema schema) {
+  const std::string source = path.string();
+  Json document = parse_json(read_file(path), source);
+  std::vector<Fault> faults = faults_of(document, schema, source);
+  if (!faults.empty()) throw Error(ErrorKind::input, source + " is no valid " + name(schema) + " document", std::move(faults));
+  return document;
+}
+
 Json context(const std::vector<HashedInput>& inputs, std::optional<std::uint64_t> seed, bool simulated) {
   Json list = Json::array();
   for (const HashedInput& input : inputs) list.push_back(Json::object({{"path", input.path}, {"sha256", input.sha256.get()}}));

@@ -17,8 +17,11 @@
 namespace gonio {
 
 /// Every fault of the document against the schema, one per wrong place, `where` = `source` + `#` + JSON pointer, in document order.
-/// Empty means valid. Faults that only repeat a fault of a child ("does not match") are dropped.
+/// Empty means valid. A missing member is a fault at its own pointer. Where alternatives are allowed (`anyOf`, `oneOf`), the faults are
+/// those of the alternative that was meant; a fault that only repeats one of a child ("does not match") does not appear.
 std::vector<Fault> faults_of(const Json& document, Schema schema, const std::string& source);
+/// The same against a schema given as text (JSON Schema draft 7). Error(internal) if that is no schema.
+std::vector<Fault> faults_of(const Json& document, std::string_view schema, const std::string& source);
 
 /// Reads, parses and validates; throws Error(input) with all faults at once.
 Json load_document(const std::filesystem::path& path, Schema schema);

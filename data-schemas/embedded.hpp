@@ -2,6 +2,7 @@
 // The texts of data-schemas/ that are built into the program, so that it needs no files of its own at run time.
 #pragma once
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -9,6 +10,7 @@ namespace gonio {
 
 /// Which schema of data-schemas/*.schema.json a document has to meet.
 enum class Schema { bench, axis_profile, plan, fit, checks };
+constexpr std::size_t schema_count = 5;
 
 /// `bench`, `axis-profile`, `plan`, `fit` or `checks`: the first part of the schema's file name, and the middle part of its examples'.
 const char* name(Schema schema) noexcept;

@@ -19,8 +19,7 @@ TEST_CASE("the run store's SQL is built in", "[embedded]") { CHECK(gonio::run_sq
 TEST_CASE("every example and every axis profile is built in under its name", "[embedded]") {
   const std::vector<std::string_view> names = gonio::example_names();
   CHECK(std::is_sorted(names.begin(), names.end()));
-  for (const std::string_view name : names)
-    CHECK(gonio::example_text(name) == gonio::read_file(folder / "examples" / "valid" / name));
+  for (const std::string_view name : names) CHECK(gonio::example_text(name) == gonio::read_file(folder / "examples" / "valid" / name));
   for (const std::string_view name : gonio::axis_profile_names())
     CHECK(gonio::axis_profile_text(name) == gonio::read_file(folder / "axis-profiles" / (std::string(name) + ".json")));
 }
