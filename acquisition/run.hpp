@@ -13,6 +13,7 @@
 
 #include "acquisition/clock.hpp"
 #include "acquisition/plan.hpp"
+#include "acquisition/run_storage.hpp"
 
 namespace gonio::acquisition {
 
@@ -36,12 +37,16 @@ struct RunEvent {
 };
 
 /// A `.gonio` file (WAL, synchronous FULL, one transaction per reading). Schema: data-schemas/run.sql.
+/// While it is open for writing, `-wal` and `-shm` files stand beside it; closing folds them in, so that a finished run is one file.
+/// Nothing of the machine or the time of day gets into it by itself: the same readings make the same bytes.
+/// One writer at a time: a second one gets an Error(input).
 class Run {
  public:
   /// Makes a new file holding bench, plan and every step. Error(input) if the file exists.
-  static Run create(const std::filesystem::path& path, const Bench& bench, const PlanRequest& request, const SweepPlan& plan);
+  static Run create(const std::filesystem::path& path, const Bench& bench, const PlanRequest& request, const SweepPlan& plan,
+                    const RunStorage& storage = {});
   /// Opens an existing one; Error(input) if it is no run file.
-  static Run open(const std::filesystem::path& path, bool writable = false);
+  static Run open(const std::filesystem::path& path, bool writable = false, const RunStorage& storage = {});
   ~Run();
   Run(Run&&) noexcept;
   Run& operator=(Run&&) noexcept;

@@ -20,6 +20,17 @@ bool is_exception(int error) { return error >= EMBXILFUN && error <= EMBXGTAR; }
 /// An exception that another attempt cannot change (illegal function, address, value).
 bool is_final(int error) { return error == EMBXILFUN || error == EMBXILADD || error == EMBXILVAL; }
 
+/// Registers transferred, or -1 with errno set.
+int request(modbus_t* context, int function, int address, std::span<std::uint16_t> values) {
+  const int count = static_cast<int>(values.size());
+  switch (function) {
+    case 3: return modbus_read_registers(context, address, count, values.data());
+    case 4: return modbus_read_input_registers(context, address, count, values.data());
+    case 6: return modbus_write_register(context, address, values.front());
+    default: return modbus_write_registers(context, address, count, values.data());
+  }
+}
+
 }  // namespace
 
 void Bus::Closer::operator()(_modbus* context) const noexcept { modbus_free(context); }
@@ -65,7 +76,7 @@ BusCounts Bus::counts() const {
   return counts_;
 }
 
-void Bus::transfer(Access access, int unit, int address, std::span<std::uint16_t> values) {
+void Bus::transfer(int function, int unit, int address, std::span<std::uint16_t> values) {
   const std::lock_guard lock(mutex_);
   const int count = static_cast<int>(values.size());
   std::string reason;
@@ -80,20 +91,17 @@ void Bus::transfer(Access access, int unit, int address, std::span<std::uint16_t
     }
     modbus_set_slave(context_.get(), unit);
     ++counts_.requests;
-    const int done = access == Access::read ? modbus_read_registers(context_.get(), address, count, values.data())
-                                            : modbus_write_registers(context_.get(), address, count, values.data());
-    if (done == count) return;
+    if (request(context_.get(), function, address, values) == count) return;
     const int error = errno;
     reason = modbus_strerror(error);
     if (is_final(error)) break;
     if (!is_exception(error)) close();
   }
   throw Error(ErrorKind::device, Fault{where(unit, address), reason,
-                                       fmt::format("an answer to {} {} register{}", access == Access::read ? "reading" : "writing", count,
-                                                   count == 1 ? "" : "s")});
+                                       fmt::format("an answer to function {} with {} register{}", function, count, count == 1 ? "" : "s")});
 }
 
-void Bus::read(int unit, int address, std::span<std::uint16_t> values) { transfer(Access::read, unit, address, values); }
+void Bus::read(int unit, int address, std::span<std::uint16_t> values, int function) { transfer(function, unit, address, values); }
 
 std::uint16_t Bus::read(int unit, int address) {
   std::uint16_t value = 0;
@@ -101,15 +109,15 @@ std::uint16_t Bus::read(int unit, int address) {
   return value;
 }
 
-void Bus::write_unverified(int unit, int address, std::span<const std::uint16_t> values) {
+void Bus::write_unverified(int unit, int address, std::span<const std::uint16_t> values, int function) {
   std::vector<std::uint16_t> copy(values.begin(), values.end());
-  transfer(Access::write, unit, address, copy);
+  transfer(function, unit, address, copy);
 }
 
-void Bus::write(int unit, int address, std::span<const std::uint16_t> values) {
+void Bus::write(int unit, int address, std::span<const std::uint16_t> values, int function) {
   std::vector<std::uint16_t> back(values.size());
   for (int attempt = 0; attempt < options_.attempts; ++attempt) {
-    write_unverified(unit, address, values);
+    write_unverified(unit, address, values, function);
     read(unit, address, back);
     if (std::ranges::equal(back, values)) return;
   }

@@ -26,7 +26,7 @@ struct BusCounts {
   std::uint64_t requests = 0, retries = 0, reconnects = 0;
 };
 
-/// Holding registers of the units behind one host:port. Function codes 03 and 16 only, the two every drive has.
+/// Registers of the units behind one host:port: function codes 03 and 16 unless the caller says 04 (input registers) or 06 (one register).
 ///
 /// An acknowledged write proves little: libmodbus checks an answer to function 16 by its count only, so a stale answer can confirm
 /// another write. So `write` always reads back and compares. After a time-out or a broken connection the link is opened anew before
@@ -39,21 +39,21 @@ class Bus {
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  /// Reads `values.size()` (at most 125) registers from `address` on.
-  void read(int unit, int address, std::span<std::uint16_t> values);
+  /// Reads `values.size()` (at most 125) registers from `address` on, with function 3 or 4.
+  void read(int unit, int address, std::span<std::uint16_t> values, int function = 3);
   std::uint16_t read(int unit, int address);
-  /// Writes and reads back; Error(device) if the read-back differs after every attempt.
-  void write(int unit, int address, std::span<const std::uint16_t> values);
+  /// Writes with function 16 or (a single register) 6, and reads back with function 3; Error(device) if the read-back differs after
+  /// every attempt.
+  void write(int unit, int address, std::span<const std::uint16_t> values, int function = 16);
   /// Writes without reading back, for registers that are meant to read otherwise than written.
-  void write_unverified(int unit, int address, std::span<const std::uint16_t> values);
+  void write_unverified(int unit, int address, std::span<const std::uint16_t> values, int function = 16);
 
   BusCounts counts() const;
   /// "host:port unit U register R"
   std::string where(int unit, int address) const;
 
  private:
-  enum class Access { read, write };
-  void transfer(Access access, int unit, int address, std::span<std::uint16_t> values);
+  void transfer(int function, int unit, int address, std::span<std::uint16_t> values);
   bool open();  // errno tells why not
   void close() noexcept;
 

@@ -24,9 +24,6 @@ class Drive {
   Drive(const Axis& axis, Bus& bus, Clock& clock);
 
   const Axis& axis() const { return axis_; }
-  /// Counts of an axis angle, position = round((angle - zero) · sign · counts per degree).
-  std::int64_t counts(double degrees) const;
-  double degrees(std::int64_t counts) const;
 
   /// Probes the profile by its speed registers (a wrong image shows here, before the first move), resets a fault that may be reset,
   /// and enables the drive.
@@ -44,14 +41,13 @@ class Drive {
 
  private:
   void run(const std::vector<CommandStep>& steps, bool wait = true);
-  void write(const RegisterField& field, std::int64_t value);
-  const RegisterField& field(const std::string& name) const;
+  void write(const RegisterField& field, double quantity);
   std::string where(int address) const;
+  std::int64_t read(const RegisterField& field);
 
   Axis axis_;
   Bus& bus_;
   Clock& clock_;
-  int block_ = 0, block_count_ = 0;  // the registers that hold status, error and position
 };
 
 }  // namespace gonio::acquisition::modbus

@@ -46,7 +46,7 @@ AxisState ModbusGantry::result(const std::vector<Drive::State>& states) const {
   s.in_position = true;
   for (std::size_t k = 0; k < drives_.size(); ++k) {
     s.counts.push_back(states[k].position);
-    s.degrees.push_back(drives_[k].degrees(states[k].position));
+    s.degrees.push_back(drives_[k].axis().degrees(states[k].position));
     s.in_position = s.in_position && commanded_[k] && drives_[k].is_in_position(states[k], *commanded_[k]);
   }
   return s;
@@ -62,7 +62,7 @@ std::vector<std::int64_t> ModbusGantry::require_within_limits(const AxisAngles& 
   for (std::size_t k = 0; k < drives_.size(); ++k) {
     const Axis& axis = drives_[k].axis();
     if (target[k] >= axis.lower_deg && target[k] <= axis.upper_deg) {
-      counts.push_back(drives_[k].counts(target[k]));
+      counts.push_back(axis.counts(target[k]));
     } else {
       faults.push_back({fmt::format("axis {}", axis.name), fmt::format("target {}°", target[k]),
                         fmt::format("{}° to {}°", axis.lower_deg, axis.upper_deg)});

@@ -52,8 +52,6 @@ ReadingTag unpack_tag(std::span<const std::uint16_t, clock_unit::tag_count> r) n
   return {static_cast<std::int64_t>(std::uint64_t{r[0]} << 32 | std::uint64_t{r[1]} << 16 | r[2]), static_cast<StepKind>(r[3]), r[4], r[5]};
 }
 
-int width(RegisterField::Type type) noexcept { return type == RegisterField::Type::u32 || type == RegisterField::Type::i32 ? 2 : 1; }
-
 std::vector<std::uint16_t> pack(RegisterField::Type type, std::int64_t value, bool high_word_first) {
   const auto [lower, upper] = range(type);
   if (value < lower || value > upper) {
@@ -61,7 +59,7 @@ std::vector<std::uint16_t> pack(RegisterField::Type type, std::int64_t value, bo
                 Fault{"register value", std::to_string(value), fmt::format("a value from {} to {}, the range of its type", lower, upper)});
   }
   const auto bits = static_cast<std::uint64_t>(value);
-  if (width(type) == 1) return {word(bits, 0)};
+  if (RegisterField{.type = type}.registers() == 1) return {word(bits, 0)};
   if (high_word_first) return {word(bits, 1), word(bits, 0)};
   return {word(bits, 0), word(bits, 1)};
 }

@@ -37,8 +37,6 @@ BenchTime unpack_time(std::span<const std::uint16_t, clock_unit::time_count> reg
 std::array<std::uint16_t, clock_unit::tag_count> pack_tag(const ReadingTag& tag) noexcept;
 ReadingTag unpack_tag(std::span<const std::uint16_t, clock_unit::tag_count> registers) noexcept;
 
-/// Registers that a field takes: 1 or 2.
-int width(RegisterField::Type type) noexcept;
 /// The field's registers for a value; 32-bit values in the profile's word order. Error(internal) if the value does not fit the type.
 std::vector<std::uint16_t> pack(RegisterField::Type type, std::int64_t value, bool high_word_first);
 std::int64_t unpack(RegisterField::Type type, std::span<const std::uint16_t> registers, bool high_word_first) noexcept;

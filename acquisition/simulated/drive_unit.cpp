@@ -13,7 +13,6 @@ namespace {
 
 using modbus::pack;
 using modbus::unpack;
-using modbus::width;
 
 // Control word 6040h.
 constexpr std::uint16_t new_set_point = 1 << 4, halt = 1 << 8;
@@ -30,16 +29,16 @@ std::vector<RegisterField> fields(const AxisProfile& p) {
 int first_register(const AxisProfile& p) {
   int first = p.status.address;
   for (const RegisterField& f : fields(p)) first = std::min(first, f.address);
-  return first;
+  return p.poll ? std::min(first, p.poll->address) : first;
 }
 
 int register_count(const AxisProfile& p) {
-  int end = 0;
-  for (const RegisterField& f : fields(p)) end = std::max(end, f.address + width(f.type));
+  int end = p.poll ? p.poll->address + p.poll->count : 0;
+  for (const RegisterField& f : fields(p)) end = std::max(end, f.address + f.registers());
   return end - first_register(p);
 }
 
-bool covers(const RegisterField& f, int address) { return address >= f.address && address < f.address + width(f.type); }
+bool covers(const RegisterField& f, int address) { return address >= f.address && address < f.address + f.registers(); }
 
 }  // namespace
 
@@ -49,15 +48,15 @@ DriveUnit::DriveUnit(const Axis& axis, bool motion)
       motion_(motion),
       speed_(axis.speed_deg_per_s * axis.counts_per_deg),
       acceleration_(axis.acceleration_deg_per_s2 * axis.counts_per_deg) {
-  from_ = std::llround(-axis.zero_offset_deg * axis.sign * axis.counts_per_deg);  // every axis wakes up at 0°
+  from_ = axis.counts(0);  // every axis wakes up at 0°
 }
 
 void DriveUnit::store(const RegisterField& field, std::int64_t value) {
-  std::ranges::copy(pack(field.type, value, axis_.profile.high_word_first), at(field.address, width(field.type)).begin());
+  std::ranges::copy(pack(field.type, std::llround(static_cast<double>(value) / field.scale), axis_.profile.high_word_first), at(field.address, field.registers()).begin());
 }
 
 std::int64_t DriveUnit::load(const RegisterField& field) {
-  return unpack(field.type, at(field.address, width(field.type)), axis_.profile.high_word_first);
+  return std::llround(static_cast<double>(unpack(field.type, at(field.address, field.registers()), axis_.profile.high_word_first)) * field.scale);
 }
 
 void DriveUnit::refresh(BenchTime now) {
@@ -142,9 +141,7 @@ std::int64_t DriveUnit::position(BenchTime now) const {
   return from_ + std::llround(moved_distance(distance_, speed_, acceleration_, t));
 }
 
-double DriveUnit::position_deg(BenchTime now) const {
-  return static_cast<double>(position(now)) / axis_.counts_per_deg * axis_.sign + axis_.zero_offset_deg;
-}
+double DriveUnit::position_deg(BenchTime now) const { return axis_.degrees(position(now)); }
 
 std::uint16_t DriveUnit::status(BenchTime now) const {
   std::uint16_t word = remote | voltage_enabled;
