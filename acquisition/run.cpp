@@ -48,8 +48,8 @@ Enum named(const std::string& text, std::initializer_list<Enum> all, const std::
 }  // namespace
 
 struct Run::Store {
-  Store(const std::filesystem::path& path, sqlite::Database::Mode mode, const RunStorage& storage)
-      : path(path), writable(mode != sqlite::Database::Mode::read), database(path, mode, storage.vfs) {
+  Store(const std::filesystem::path& file, sqlite::Database::Mode mode, const RunStorage& storage)
+      : path(file), writable(mode != sqlite::Database::Mode::read), database(file, mode, storage.vfs) {
     // Set by hand, not by SQLite's own busy handler: whoever finds the file in use is told at once.
     if (!writable) return;
     database.execute("PRAGMA locking_mode = EXCLUSIVE");
@@ -142,7 +142,8 @@ Run Run::open(const std::filesystem::path& path, bool writable, const RunStorage
       throw Error(ErrorKind::input, Fault{path.string(), fmt::format("an SQLite file with application id {}", id), "a run file (.gonio)"});
     }
     if (const auto version = probe.pragma("user_version"); version != schema_version) {
-      throw Error(ErrorKind::input, Fault{path.string(), fmt::format("run schema version {}", version), fmt::format("version {}", schema_version)});
+      throw Error(ErrorKind::input,
+                  Fault{path.string(), fmt::format("run schema version {}", version), fmt::format("version {}", schema_version)});
     }
   }
   return Run(std::make_unique<Store>(path, writable ? sqlite::Database::Mode::write : sqlite::Database::Mode::read, storage));
@@ -155,7 +156,13 @@ void Run::append(const Reading& r) {
         "INSERT INTO reading (step, attempt, repeat, time_ns, signal_w, exposure_s, range_w, counts, axes_deg, good, reason) "
         "VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)"));
   }
-  insert->bind(r.step).bind(std::int64_t{r.attempt}).bind(std::int64_t{r.repeat}).bind(r.time).bind(r.signal).bind(r.exposure_s).bind(r.range_w);
+  insert->bind(r.step)
+      .bind(std::int64_t{r.attempt})
+      .bind(std::int64_t{r.repeat})
+      .bind(r.time)
+      .bind(r.signal)
+      .bind(r.exposure_s)
+      .bind(r.range_w);
   insert->bind(json_array(r.counts)).bind(json_array(r.axes)).bind(std::int64_t{r.good}).bind(r.reason);
   insert->step();
 }

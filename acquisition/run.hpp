@@ -21,13 +21,13 @@ namespace gonio::acquisition {
 struct Reading {
   std::int64_t step = 0;
   int attempt = 0;
-  int repeat = 0;                   ///< 0 .. readings_at(kind, bench) - 1
-  BenchTime time = 0;               ///< middle of the exposure
-  double signal = 0;                ///< as the meter printed it [W]
+  int repeat = 0;      ///< 0 .. readings_at(kind, bench) - 1
+  BenchTime time = 0;  ///< middle of the exposure
+  double signal = 0;   ///< as the meter printed it [W]
   double exposure_s = 0, range_w = 0;
-  std::vector<std::int64_t> counts; ///< read-back position of each axis
-  AxisAngles axes;                  ///< the same in degrees
-  bool good = true;                 ///< false: saturated, out of position or otherwise refused, with a reason
+  std::vector<std::int64_t> counts;  ///< read-back position of each axis
+  AxisAngles axes;                   ///< the same in degrees
+  bool good = true;                  ///< false: saturated, out of position or otherwise refused, with a reason
   std::string reason;
 };
 
@@ -59,7 +59,7 @@ class Run {
   Bench bench() const;
   PlanRequest request() const;
   std::vector<PlanStep> steps() const;
-  std::vector<Reading> readings() const;     ///< in the order they were taken
+  std::vector<Reading> readings() const;  ///< in the order they were taken
   std::vector<RunEvent> events() const;
   std::map<std::string, std::string> meta() const;
   /// Steps that have a good reading for every repeat.

@@ -13,8 +13,8 @@
 namespace gonio::acquisition {
 namespace {
 
-constexpr double over_range = 9.9e37;          // SCPI-99 vol. 1, 7.2.1.4: +infinity; not-a-number is 9.91e37
-constexpr double printed_to_7_digits = 1e-6;   // a meter may print a setting with as few digits as IEEE single precision has
+constexpr double over_range = 9.9e37;         // SCPI-99 vol. 1, 7.2.1.4: +infinity; not-a-number is 9.91e37
+constexpr double printed_to_7_digits = 1e-6;  // a meter may print a setting with as few digits as IEEE single precision has
 constexpr int longest_error_queue = 64;
 
 }  // namespace
@@ -32,7 +32,8 @@ void ScpiPowerMeter::open() {
   stream_->send_line("*CLS", timeout_s_);
   identity_ = ask("*IDN?");
   if (!identity_.starts_with(expected_idn_)) {
-    throw Error(ErrorKind::device, Fault{stream_->peer() + " *IDN?", identity_, fmt::format("an identity that begins with '{}'", expected_idn_)});
+    throw Error(ErrorKind::device,
+                Fault{stream_->peer() + " *IDN?", identity_, fmt::format("an identity that begins with '{}'", expected_idn_)});
   }
 }
 

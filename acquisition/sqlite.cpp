@@ -12,8 +12,9 @@ void Database::Closer::operator()(sqlite3* database) const noexcept { sqlite3_cl
 void Statement::Finalizer::operator()(sqlite3_stmt* statement) const noexcept { sqlite3_finalize(statement); }
 
 Database::Database(const std::filesystem::path& path, Mode mode, const std::string& vfs) : path_(path.string()) {
-  const int flags = mode == Mode::read ? SQLITE_OPEN_READONLY : mode == Mode::write ? SQLITE_OPEN_READWRITE
-                                                                                  : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int flags = mode == Mode::read    ? SQLITE_OPEN_READONLY
+                    : mode == Mode::write ? SQLITE_OPEN_READWRITE
+                                          : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   sqlite3* database = nullptr;
   const int code = sqlite3_open_v2(path_.c_str(), &database, flags, vfs.empty() ? nullptr : vfs.c_str());
   database_.reset(database);
@@ -39,7 +40,8 @@ void Database::execute(const std::string& sql) {
 
 Statement Database::prepare(std::string_view sql) {
   sqlite3_stmt* statement = nullptr;
-  if (const int code = sqlite3_prepare_v2(database_.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr); code != SQLITE_OK) {
+  if (const int code = sqlite3_prepare_v2(database_.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
+      code != SQLITE_OK) {
     fail(code);
   }
   return {*this, statement};

@@ -35,7 +35,7 @@ class RunTime {
     } else if (clock.is_virtual()) {
       if (clock.now() < last) clock.sleep_until(last);
     } else {
-      offset_ = std::max(utc_ns() - std::stoll(epoch->second), last) - clock.now();
+      offset_ = std::max<BenchTime>(utc_ns() - std::stoll(epoch->second), last) - clock.now();
     }
   }
   BenchTime now() const { return clock_.now() + offset_; }
@@ -50,13 +50,22 @@ class RunTime {
 /// What a step still lacks: for every repeat the next attempt, or none where a good reading is stored.
 struct Outstanding {
   std::vector<std::optional<int>> next_attempt;
-  bool is_complete() const { return std::ranges::none_of(next_attempt, [](const auto& a) { return a.has_value(); }); }
+  bool is_complete() const {
+    return std::ranges::none_of(next_attempt, [](const auto& a) { return a.has_value(); });
+  }
 };
 
 class Sweep {
  public:
   Sweep(Run& run, const SweepPlan& plan, Gantry& gantry, Detector& detector, Source& source, Clock& clock, const SweepOptions& options)
-      : run_(run), plan_(plan), gantry_(gantry), detector_(detector), source_(source), options_(options), bench_(run.bench()), time_(run, clock) {}
+      : run_(run),
+        plan_(plan),
+        gantry_(gantry),
+        detector_(detector),
+        source_(source),
+        options_(options),
+        bench_(run.bench()),
+        time_(run, clock) {}
 
   SweepResult run() {
     const BenchTime begin = time_.now();
@@ -77,7 +86,8 @@ class Sweep {
   Outstanding outstanding(const PlanStep& step) const;
   void measure(const PlanStep& step, Outstanding todo);
   bool take(const PlanStep& step, int attempt, int repeat);
-  void report(std::size_t done, std::size_t total, BenchTime begin, std::chrono::steady_clock::time_point wall_begin, std::size_t measured) const;
+  void report(std::size_t done, std::size_t total, BenchTime begin, std::chrono::steady_clock::time_point wall_begin,
+              std::size_t measured) const;
   void make_safe() noexcept;
   void require_go_ahead() const {
     if (options_.stop && *options_.stop) throw Error(ErrorKind::interrupted, Fault{"sweep", "a request to stop", "no interruption"});
@@ -215,17 +225,21 @@ void Sweep::make_safe() noexcept {
     } catch (const std::exception& e) {
       why = e.what();
     }
-    run_.append(RunEvent{time_.now(), "stop",
-                         fmt::format("shutter {}, arms {}: {}", closed ? "closed" : "not seen closed", at_rest ? "at rest" : "not seen at rest", why)});
+    run_.append(RunEvent{
+        time_.now(), "stop",
+        fmt::format("shutter {}, arms {}: {}", closed ? "closed" : "not seen closed", at_rest ? "at rest" : "not seen at rest", why)});
   } catch (...) {
   }
 }
 
 }  // namespace
 
-SweepResult sweep(Run& run, const SweepPlan& plan, Gantry& gantry, Detector& detector, Source& source, Clock& clock, const SweepOptions& options) {
+SweepResult sweep(Run& run, const SweepPlan& plan, Gantry& gantry, Detector& detector, Source& source, Clock& clock,
+                  const SweepOptions& options) {
   const std::vector<PlanStep> stored = run.steps();
-  const auto same = [](const PlanStep& a, const PlanStep& b) { return a.number == b.number && a.kind == b.kind && a.state == b.state && a.axes == b.axes; };
+  const auto same = [](const PlanStep& a, const PlanStep& b) {
+    return a.number == b.number && a.kind == b.kind && a.state == b.state && a.axes == b.axes;
+  };
   if (!std::ranges::equal(stored, plan.steps, same)) {
     throw Error(ErrorKind::input, Fault{"run file", fmt::format("{} steps of another plan", stored.size()), "the steps of this plan"});
   }

@@ -80,7 +80,9 @@ TcpStream::~TcpStream() {
   if (socket_ >= 0) close(socket_);
 }
 
-void TcpStream::fail(const std::string& found, const std::string& wanted) const { throw Error(ErrorKind::device, Fault{peer_, found, wanted}); }
+void TcpStream::fail(const std::string& found, const std::string& wanted) const {
+  throw Error(ErrorKind::device, Fault{peer_, found, wanted});
+}
 
 void TcpStream::send_line(std::string_view text, double timeout_s) {
   const auto deadline = deadline_after(timeout_s);
@@ -90,7 +92,8 @@ void TcpStream::send_line(std::string_view text, double timeout_s) {
     if (n > 0) {
       sent += static_cast<std::size_t>(n);
     } else if (errno == EAGAIN || errno == EINTR) {
-      if (!wait_for(socket_, POLLOUT, deadline)) fail(fmt::format("no room to send '{}' within {} s", text, timeout_s), "a peer that reads");
+      if (!wait_for(socket_, POLLOUT, deadline))
+        fail(fmt::format("no room to send '{}' within {} s", text, timeout_s), "a peer that reads");
     } else {
       fail(fmt::format("{} on sending '{}'", std::strerror(errno), text), "an open connection");
     }

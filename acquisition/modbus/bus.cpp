@@ -39,7 +39,8 @@ Bus::Bus(Endpoint endpoint, BusOptions options) : endpoint_(std::move(endpoint))
   const std::string service = std::to_string(endpoint_.port);
   context_.reset(modbus_new_tcp_pi(endpoint_.host.c_str(), service.c_str()));
   if (!context_) {
-    throw Error(ErrorKind::device, Fault{fmt::format("{}:{}", endpoint_.host, endpoint_.port), modbus_strerror(errno), "a host and a port"});
+    throw Error(ErrorKind::device,
+                Fault{fmt::format("{}:{}", endpoint_.host, endpoint_.port), modbus_strerror(errno), "a host and a port"});
   }
   const auto whole = static_cast<std::uint32_t>(options_.response_timeout_s);
   const auto micro = static_cast<std::uint32_t>((options_.response_timeout_s - whole) * 1e6);

@@ -44,8 +44,7 @@ Drive::State Drive::state() {
     const auto offset = static_cast<std::size_t>(f.address - p.poll->address);
     return unpack(f.type, std::span(block).subspan(offset), p.high_word_first);
   };
-  return {static_cast<std::uint16_t>(value(p.status)), static_cast<std::uint32_t>(value(p.error)),
-          std::llround(static_cast<double>(value(p.position)) * p.position.scale)};
+  return {static_cast<std::uint16_t>(value(p.status)), static_cast<std::uint32_t>(value(p.error)), value(p.position)};
 }
 
 void Drive::require_no_fault(const State& state) const {
@@ -55,8 +54,9 @@ void Drive::require_no_fault(const State& state) const {
 }
 
 bool Drive::is_in_position(const State& state, std::int64_t target) const {
-  const double error_counts = std::abs(static_cast<double>(state.position - target));
-  return axis_.profile.target_reached.in(state.status) && error_counts <= axis_.tolerance_deg * axis_.counts_per_deg;
+  const AxisProfile& p = axis_.profile;
+  const double error = std::abs(static_cast<double>(state.position) * p.position.scale - static_cast<double>(target) * p.target.scale);
+  return p.target_reached.in(state.status) && error <= axis_.tolerance_deg * axis_.counts_per_deg;
 }
 
 void Drive::run(const std::vector<CommandStep>& steps, bool wait) {
@@ -65,7 +65,8 @@ void Drive::run(const std::vector<CommandStep>& steps, bool wait) {
     if (step.field) {
       const RegisterField* f = p.written_field(*step.field);
       if (!f) {
-        throw Error(ErrorKind::input, Fault{"axis profile " + p.name, "a command that writes '" + *step.field + "'", "a field that can be written"});
+        throw Error(ErrorKind::input,
+                    Fault{"axis profile " + p.name, "a command that writes '" + *step.field + "'", "a field that can be written"});
       }
       write(*f, step.value * f->scale);
     }
@@ -104,7 +105,7 @@ void Drive::enable() {
   }
 }
 
-void Drive::set_target(std::int64_t counts) { write(axis_.profile.target, static_cast<double>(counts)); }
+void Drive::set_target(std::int64_t counts) { write(axis_.profile.target, static_cast<double>(counts) * axis_.profile.target.scale); }
 
 void Drive::start() { run(axis_.profile.start); }
 

@@ -91,7 +91,7 @@ AxisState ModbusGantry::move_to(const AxisAngles& target) {
   for (std::size_t k = 0; k < drives_.size(); ++k) {
     if (commanded_[k] == counts[k] && drives_[k].is_in_position(before[k], counts[k])) continue;
     const Axis& axis = drives_[k].axis();
-    const double distance_deg = static_cast<double>(counts[k] - before[k].position) / axis.counts_per_deg;
+    const double distance_deg = target[k] - axis.degrees(before[k].position);
     predicted_s = std::max(predicted_s, move_duration_s(distance_deg, axis.speed_deg_per_s, axis.acceleration_deg_per_s2));
     commanded_[k].reset();  // until the drive has acknowledged the new one
     drives_[k].set_target(counts[k]);

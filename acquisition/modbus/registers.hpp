@@ -24,7 +24,7 @@ constexpr int count = 3;
 /// The unit of a simulated bench that is no device: bench time and the tag of the coming reading.
 namespace clock_unit {
 constexpr int unit = 247;
-constexpr int time = 0;        ///< u64 nanoseconds, high word first; writing advances a virtual clock, an earlier time is ignored
+constexpr int time = 0;  ///< u64 nanoseconds, high word first; writing advances a virtual clock, an earlier time is ignored
 constexpr int time_count = 4;
 constexpr int is_virtual = 4;  ///< 1: the server owns a virtual clock; 0: a real one, whose time cannot be written
 constexpr int tag = 8;         ///< step (u48, high word first), kind, attempt, repeat

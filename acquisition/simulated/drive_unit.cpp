@@ -48,15 +48,17 @@ DriveUnit::DriveUnit(const Axis& axis, bool motion)
       motion_(motion),
       speed_(axis.speed_deg_per_s * axis.counts_per_deg),
       acceleration_(axis.acceleration_deg_per_s2 * axis.counts_per_deg) {
-  from_ = axis.counts(0);  // every axis wakes up at 0°
+  from_ = std::llround(static_cast<double>(axis.counts(0)) * axis.profile.target.scale);  // every axis wakes up at 0°
 }
 
 void DriveUnit::store(const RegisterField& field, std::int64_t value) {
-  std::ranges::copy(pack(field.type, std::llround(static_cast<double>(value) / field.scale), axis_.profile.high_word_first), at(field.address, field.registers()).begin());
+  std::ranges::copy(pack(field.type, std::llround(static_cast<double>(value) / field.scale), axis_.profile.high_word_first),
+                    at(field.address, field.registers()).begin());
 }
 
 std::int64_t DriveUnit::load(const RegisterField& field) {
-  return std::llround(static_cast<double>(unpack(field.type, at(field.address, field.registers()), axis_.profile.high_word_first)) * field.scale);
+  return std::llround(static_cast<double>(unpack(field.type, at(field.address, field.registers()), axis_.profile.high_word_first)) *
+                      field.scale);
 }
 
 void DriveUnit::refresh(BenchTime now) {
@@ -141,7 +143,9 @@ std::int64_t DriveUnit::position(BenchTime now) const {
   return from_ + std::llround(moved_distance(distance_, speed_, acceleration_, t));
 }
 
-double DriveUnit::position_deg(BenchTime now) const { return axis_.degrees(position(now)); }
+double DriveUnit::position_deg(BenchTime now) const {
+  return axis_.degrees(std::llround(static_cast<double>(position(now)) / axis_.profile.position.scale));
+}
 
 std::uint16_t DriveUnit::status(BenchTime now) const {
   std::uint16_t word = remote | voltage_enabled;
@@ -153,7 +157,7 @@ std::uint16_t DriveUnit::status(BenchTime now) const {
     case State::quick_stop_active: word |= 0x07; break;
   }
   if (acknowledged_) word |= set_point_acknowledged;
-  if (reached_ && !is_moving(now)) word |= target_reached;
+  if ((reached_ || (control_ & halt)) && !is_moving(now)) word |= target_reached;
   return word;
 }
 

@@ -39,10 +39,13 @@ class ClockUnit final : public RegisterUnit {
   /// Time moves only when all four registers have been written at once, and never back.
   void written(int address, int count, BenchTime) override {
     if (address != modbus::clock_unit::time || count < modbus::clock_unit::time_count) return;
-    clock_->sleep_until(modbus::unpack_time(at(modbus::clock_unit::time, modbus::clock_unit::time_count).first<modbus::clock_unit::time_count>()));
+    clock_->sleep_until(
+        modbus::unpack_time(at(modbus::clock_unit::time, modbus::clock_unit::time_count).first<modbus::clock_unit::time_count>()));
   }
 
-  ReadingTag tag() { return modbus::unpack_tag(at(modbus::clock_unit::tag, modbus::clock_unit::tag_count).first<modbus::clock_unit::tag_count>()); }
+  ReadingTag tag() {
+    return modbus::unpack_tag(at(modbus::clock_unit::tag, modbus::clock_unit::tag_count).first<modbus::clock_unit::tag_count>());
+  }
 
  private:
   std::shared_ptr<Clock> clock_;

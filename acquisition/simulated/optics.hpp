@@ -13,12 +13,12 @@ namespace gonio::acquisition::simulated {
 
 /// How things stand during an exposure.
 struct Exposure {
-  Pose pose;                ///< where the axes really are
+  Pose pose;  ///< where the axes really are
   bool shutter_open = false;
   bool white_in_beam = false;
   BenchTime middle = 0;
   double exposure_s = 0;
-  ReadingTag tag;           ///< keys the noise
+  ReadingTag tag;  ///< keys the noise
 };
 
 /// The signal [W] with the spot inside the receiver's field (measurement equation, relative form):

@@ -83,7 +83,9 @@ const std::vector<PowerMeter::Command>& PowerMeter::commands() {
        nullptr},
       {"ABORt", nullptr, [](PowerMeter& m, std::string_view) { m.acquisition_.reset(); }},
       {"INITiate", nullptr,
-       [](PowerMeter& m, std::string_view) { m.acquisition_ = {m.clock_->now(), m.samples_ * ScpiPowerMeter::sample_s, std::nullopt}; }},
+       [](PowerMeter& m, std::string_view) {
+         m.acquisition_ = {m.clock_->now(), m.samples_ * ScpiPowerMeter::sample_s, std::nullopt};
+       }},
       {"FETCh", [](PowerMeter& m, Lock& lock) { return m.fetch(lock); }, nullptr},
       {"SENSe:CORRection:WAVelength", [](PowerMeter& m, Lock&) { return m.print(m.wavelength_nm_); },
        [](PowerMeter& m, std::string_view p) {
@@ -185,9 +187,8 @@ std::string PowerMeter::fetch(std::unique_lock<std::mutex>& lock) {
 std::optional<std::string> PowerMeter::execute_one(std::string_view header, std::string_view parameter, bool is_query) {
   std::unique_lock lock(mutex_);
   const auto& list = commands();
-  const auto command = std::ranges::find_if(list, [&](const Command& c) {
-    return is_header(header, c.pattern) && (is_query ? c.query != nullptr : c.set != nullptr);
-  });
+  const auto command = std::ranges::find_if(
+      list, [&](const Command& c) { return is_header(header, c.pattern) && (is_query ? c.query != nullptr : c.set != nullptr); });
   if (command == list.end()) {
     raise(-113, "Undefined header");
     return std::nullopt;

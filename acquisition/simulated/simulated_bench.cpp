@@ -42,15 +42,16 @@ Request parse(const std::uint8_t* frame) {
 }  // namespace
 
 struct SimulatedBench::Server {
-  Server(const Bench& bench, std::shared_ptr<const Brdf> sample, std::shared_ptr<Clock> clock)
-      : clock(clock),
+  Server(const Bench& bench, std::shared_ptr<const Brdf> sample, std::shared_ptr<Clock> bench_clock)
+      : clock(std::move(bench_clock)),
         kinematics(make_kinematics(bench)),
         optics(bench, std::move(sample)),
         clock_unit(clock),
         meter(bench, clock, [this](BenchTime start, double exposure_s) { return signal_w(start, exposure_s); }) {
     const auto add = [&](int number, RegisterUnit& unit, const std::string& what) {
       if (!units.emplace(number, &unit).second) {
-        throw Error(ErrorKind::input, Fault{"bench", fmt::format("Modbus unit {} twice ({})", number, what), "a unit of its own for each device"});
+        throw Error(ErrorKind::input,
+                    Fault{"bench", fmt::format("Modbus unit {} twice ({})", number, what), "a unit of its own for each device"});
       }
     };
     add(modbus::clock_unit::unit, clock_unit, "clock");
@@ -119,8 +120,8 @@ void SimulatedBench::Server::answer(modbus_t* connection, const std::uint8_t* fr
     return;
   }
   // The device acts before its answer leaves, so that whoever got the answer finds the command done.
-  if (request.function == write_multiple && (request.count < 1 || request.count > MODBUS_MAX_WRITE_REGISTERS ||
-                                             length < 13 + 2 * request.count)) {
+  if (request.function == write_multiple &&
+      (request.count < 1 || request.count > MODBUS_MAX_WRITE_REGISTERS || length < 13 + 2 * request.count)) {
     return refuse(MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE);
   }
   const std::uint8_t* values = frame + (request.function == write_single ? 10 : 13);
