@@ -27,7 +27,8 @@ std::string json_array(const Numbers& numbers) {
 template <class Number>
 std::vector<Number> numbers_of(const std::string& text, const std::string& where) {
   std::vector<Number> numbers;
-  for (const Json& element : parse_json(text, where).elements()) {
+  const Json array = parse_json(text, where);
+  for (const Json& element : array.elements()) {
     if constexpr (std::is_integral_v<Number>) {
       numbers.push_back(element.integer());
     } else {
