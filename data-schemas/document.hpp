@@ -17,7 +17,7 @@
 namespace gonio {
 
 /// Every fault of the document against the schema, one per wrong place, `where` = `source` + `#` + JSON pointer, in document order.
-/// Empty means valid. A missing member is a fault at its own pointer. Where alternatives are allowed (`anyOf`, `oneOf`), the faults are
+/// Empty means valid. A missing member is a fault of its object. Where alternatives are allowed (`anyOf`, `oneOf`), the faults are
 /// those of the alternative that was meant; a fault that only repeats one of a child ("does not match") does not appear.
 std::vector<Fault> faults_of(const Json& document, Schema schema, const std::string& source);
 /// The same against a schema given as text (JSON Schema draft 7). Error(internal) if that is no schema.

@@ -40,9 +40,11 @@ struct Place {
 };
 
 struct PlacedFault {
+  /// A value is wrong; it is none of the values of a `const` or `enum`, which may be what tells alternatives apart; or a member is missing.
+  enum class Kind { value, choice, missing };
   Place place;
   std::string found, wanted;
-  bool is_choice = false;  ///< a `const` or `enum` was not met: perhaps what tells alternatives apart
+  Kind kind = Kind::value;
 };
 
 bool is_walked(std::string_view keyword) {
@@ -79,8 +81,8 @@ class FaultFinder {
     std::vector<Fault> faults;
     for (PlacedFault& fault : found) {
       std::string where = source + '#' + fault.place.pointer;
-      if (faults.empty() || faults.back().where != where)
-        faults.push_back({std::move(where), std::move(fault.found), std::move(fault.wanted)});
+      const bool is_repeated = !faults.empty() && faults.back().where == where && faults.back().found == fault.found;
+      if (!is_repeated) faults.push_back({std::move(where), std::move(fault.found), std::move(fault.wanted)});
     }
     return faults;
   }
@@ -131,7 +133,8 @@ class FaultFinder {
       return;
     }
     if (!accepts_own_keywords(schema, value)) {
-      found.push_back({place, found_text(value), wanted_text(schema), schema.contains("const") || schema.contains("enum")});
+      found.push_back({place, found_text(value), wanted_text(schema),
+                       schema.contains("const") || schema.contains("enum") ? PlacedFault::Kind::choice : PlacedFault::Kind::value});
     }
     if (value.is_object()) find_in_object(schema, value, place, found);
     if (value.is_array()) find_in_array(schema, value, place, found);
@@ -171,9 +174,11 @@ class FaultFinder {
     }
     if (const Json& required = schema.get("required"); required.is_array())
       for (const Json& name : required.elements())
-        if (!value.contains(name.string()))
-          found.push_back({place.member(name.string(), index++), "nothing",
-                           properties.contains(name.string()) ? wanted_text(properties.at(name.string())) : "a member of this name"});
+        if (!value.contains(name.string())) {
+          const std::string quoted = name.dump();
+          const std::string what = properties.contains(name.string()) ? ": " + wanted_text(properties.at(name.string())) : "";
+          found.push_back({place, "no member " + quoted, quoted + what, PlacedFault::Kind::missing});
+        }
   }
 
   void find_in_array(const Json& schema, const Json& value, const Place& place, Found& found) {
@@ -197,8 +202,9 @@ class FaultFinder {
       if (accepts(alternative, value)) ++accepted;
       Found own;
       find(alternative, value, place, own);
-      const bool fits =
-          std::none_of(own.begin(), own.end(), [&](const PlacedFault& fault) { return fault.place.pointer == place.pointer; });
+      const bool fits = std::none_of(own.begin(), own.end(), [&](const PlacedFault& fault) {
+        return fault.place.pointer == place.pointer && fault.kind != PlacedFault::Kind::missing;
+      });
       if (fits) meant.push_back(std::move(own));
     }
     if (accepted == 1 || (accepted > 1 && keyword == std::string_view("anyOf"))) return;
@@ -212,7 +218,7 @@ class FaultFinder {
     }
     const auto choice_of = [&](const Found& faults) {
       return std::find_if(faults.begin(), faults.end(), [&](const PlacedFault& fault) {
-        return fault.is_choice && fault.place.position.size() == place.position.size() + 1;
+        return fault.kind == PlacedFault::Kind::choice && fault.place.position.size() == place.position.size() + 1;
       });
     };
     // A member such as "kind" tells the alternatives apart: if it fits none, it is the fault, and its wanted values are all of theirs.

@@ -64,13 +64,14 @@ TEST_CASE("a document with nine faults gives nine lines in document order", "[fa
     "axes": [{"unit": 0, "sped_deg_per_s": 30}, {"unit": 2, "speed_deg_per_s": "fast"}],
     "mask": "31",
     "watchdog": {"address": 65536}
-  })") == Lines{"doc#/name | \"\" (string) | a string of at least 1 character", "doc#/mode | \"fast\" (string) | one of \"step\", \"fly\"",
+  })") == Lines{"doc# | no member \"reference\" | \"reference\": an object", "doc#/name | \"\" (string) | a string of at least 1 character",
+                "doc#/mode | \"fast\" (string) | one of \"step\", \"fly\"",
+                "doc#/axes/0 | no member \"speed_deg_per_s\" | \"speed_deg_per_s\": a number from 0 to 360",
                 "doc#/axes/0/unit | 0 (integer) | an integer from 1 to 247",
                 "doc#/axes/0/sped_deg_per_s | an unknown member | perhaps \"speed_deg_per_s\"; one of unit, speed_deg_per_s",
-                "doc#/axes/0/speed_deg_per_s | nothing | a number from 0 to 360",
                 "doc#/axes/1/speed_deg_per_s | \"fast\" (string) | a number from 0 to 360",
                 "doc#/mask | \"31\" (string) | a string that matches ^0x[0-9a-f]+$",
-                "doc#/watchdog/address | 65536 (integer) | an integer from 0 to 65535", "doc#/reference | nothing | an object"});
+                "doc#/watchdog/address | 65536 (integer) | an integer from 0 to 65535"});
 }
 
 TEST_CASE("a value of the wrong type is one fault, whatever its parts", "[faults]") {
@@ -79,6 +80,12 @@ TEST_CASE("a value of the wrong type is one fault, whatever its parts", "[faults
   CHECK(faults_with("reference", "1.5") == Lines{"doc#/reference | 1.5 (number) | an object"});
   CHECK(faults_with("limits", "[0]") == Lines{"doc#/limits | an array of 1 element | an array of 2 elements"});
   CHECK(faults_with("limits", "[true, null]") == Lines{"doc#/limits/0 | true (boolean) | a number", "doc#/limits/1 | null | a number"});
+}
+
+TEST_CASE("each missing member is a fault of its own", "[faults]") {
+  CHECK(faults_with("axes", R"([{}, {"unit": 1, "speed_deg_per_s": 1}])") ==
+        Lines{"doc#/axes/0 | no member \"unit\" | \"unit\": an integer from 1 to 247",
+              "doc#/axes/0 | no member \"speed_deg_per_s\" | \"speed_deg_per_s\": a number from 0 to 360"});
 }
 
 TEST_CASE("types are strict, and a number without a fraction is an integer", "[faults]") {
@@ -90,10 +97,11 @@ TEST_CASE("types are strict, and a number without a fraction is an integer", "[f
 
 TEST_CASE("of alternatives the one that was meant is explained", "[faults]") {
   CHECK(faults_with("watchdog", "\"none\"") == Lines{"doc#/watchdog | \"none\" (string) | null or an object"});
-  CHECK(faults_with("watchdog", "{}") == Lines{"doc#/watchdog/address | nothing | an integer from 0 to 65535"});
+  CHECK(faults_with("watchdog", "{}") == Lines{"doc#/watchdog | no member \"address\" | \"address\": an integer from 0 to 65535"});
   CHECK(faults_with("pattern", R"({"kind": "density", "points": "many"})") ==
         Lines{"doc#/pattern/points | \"many\" (string) | an integer"});
-  CHECK(faults_with("pattern", R"({"kind": "grid", "points": 5})") == Lines{"doc#/pattern/step_deg | nothing | a number"});
+  CHECK(faults_with("pattern", R"({"kind": "grid", "points": 5})") ==
+        Lines{"doc#/pattern | no member \"step_deg\" | \"step_deg\": a number"});
   CHECK(faults_with("pattern", R"({"kind": "spiral"})") == Lines{"doc#/pattern/kind | \"spiral\" (string) | \"grid\" or \"density\""});
 }
 
@@ -112,7 +120,7 @@ TEST_CASE("a condition is explained by its consequence", "[faults]") {
   constexpr std::string_view schema = R"({"allOf": [{"if": {"properties": {"k": {"const": 1}}}, "then": {"required": ["a"]},
                                                      "else": {"properties": {"a": {"type": "null"}}}}]})";
   CHECK(faults(R"({"k": 1, "a": 2})", schema) == Lines{});
-  CHECK(faults(R"({"k": 1})", schema) == Lines{"doc#/a | nothing | a member of this name"});
+  CHECK(faults(R"({"k": 1})", schema) == Lines{"doc# | no member \"a\" | \"a\""});
   CHECK(faults(R"({"k": 2, "a": 2})", schema) == Lines{"doc#/a | 2 (integer) | null"});
 }
 

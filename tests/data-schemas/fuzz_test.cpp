@@ -113,7 +113,7 @@ TEST_CASE("mutated text is read or refused, and what is read prints and reads ba
   CHECK(refused > text_mutations / 100);
 }
 
-TEST_CASE("a mutated document is accepted by its schema exactly if it has no faults, one for each place", "[fuzz]") {
+TEST_CASE("a mutated document is accepted by its schema exactly if it has no faults, and no fault is said twice", "[fuzz]") {
   INFO("seed " << seed);
   std::mt19937 random(seed);
   const std::vector<Example> list = examples();
@@ -131,7 +131,7 @@ TEST_CASE("a mutated document is accepted by its schema exactly if it has no fau
     std::set<std::string> places;
     bool explained = true;
     for (const gonio::Fault& fault : faults) {
-      places.insert(fault.where);
+      places.insert(fault.where + ' ' + fault.found);
       explained = explained && !fault.found.empty() && fault.wanted != "a document that its schema allows";
     }
     if (accepted != faults.empty() || places.size() != faults.size() || !explained) FAIL(value.dump());
