@@ -142,3 +142,15 @@ TEST_CASE("faults against the schema are named all at once") {
 TEST_CASE("a profile that is not there is refused by its name") {
   CHECK_THROWS_AS(load_axis_profile("no-such-profile", "/nowhere"), Error);
 }
+
+TEST_CASE("a profile with watchdog, homing, acceleration and scales is read from a file") {
+  const AxisProfile p =
+      load_axis_profile("servo.axis-profile.json", std::filesystem::path(GONIO_SOURCE_DIR) / "data-schemas/examples/valid");
+  REQUIRE(p.watchdog.has_value());
+  CHECK(p.watchdog->function_code == 6);
+  REQUIRE(p.acceleration.has_value());
+  CHECK(p.acceleration->scale == 10);
+  CHECK(p.homing.size() == 4);
+  CHECK(p.homed.has_value());
+  CHECK_FALSE(p.poll.has_value());
+}
