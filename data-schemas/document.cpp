@@ -11,7 +11,8 @@ namespace gonio {
 
 std::string read_file(const std::filesystem::path& path) {
   const auto fail = [&](const std::string& found) { throw Error(ErrorKind::input, {path.string(), found, "a readable file"}); };
-  if (std::filesystem::is_directory(path)) fail("a folder");
+  std::error_code ignored;  // what cannot be looked at cannot be opened either, and that tells why
+  if (std::filesystem::is_directory(path, ignored)) fail("a folder");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(std::generic_category().message(errno));

@@ -26,8 +26,7 @@ class TrackedPosition {
     *reached_ = ++at_;
     return *this;
   }
-  friend bool operator==(const TrackedPosition& a, const TrackedPosition& b) { return a.at_ == b.at_; }
-  friend bool operator!=(const TrackedPosition& a, const TrackedPosition& b) { return a.at_ != b.at_; }
+  bool operator==(const TrackedPosition& other) const { return at_ == other.at_; }
 
  private:
   const char* at_;

@@ -9,7 +9,7 @@ PRAGMA application_id = 1735356009;  -- 'goni': how `file` and `gonio info` know
 PRAGMA user_version = 1;             -- version of this schema
 
 -- Text pairs about the whole run: 'bench' and 'plan' (the JSON documents as they were read) with 'bench_sha256' and 'plan_sha256',
--- 'context' (JSON: program, version, build type), 'epoch_utc' (ISO 8601), 'clock' (real or virtual), 'seed', 'simulated'.
+-- 'epoch_utc' (ISO 8601) and 'epoch_ns' (the same since 1970-01-01) of bench time 0, 'clock' (real or virtual), 'seed', 'simulated'.
 CREATE TABLE meta (
   key   TEXT NOT NULL PRIMARY KEY,
   value TEXT NOT NULL

@@ -79,6 +79,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
     return;
   }
   const std::filesystem::path target = type == std::filesystem::file_type::regular ? std::filesystem::canonical(path, none) : path;
+  if (target.empty()) refuse(path, ENOENT);
 
   static std::atomic<unsigned> counter{0};
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");

@@ -2,8 +2,9 @@
 // Loading documents, and the context block.
 #include "data-schemas/document.hpp"
 
-#include "tests/check.hpp"
 #include "tests/data-schemas/temporary_folder.hpp"
+
+#include "tests/check.hpp"
 
 using gonio::Json;
 using gonio::Schema;
@@ -46,6 +47,8 @@ TEST_CASE("a document that cannot be read, parsed or accepted is an input error"
   };
   CHECK(faults(folder / "missing.json").size() == 1);
   CHECK(faults(folder.path()).size() == 1);
+  CHECK(faults("").size() == 1);
+  CHECK(faults(std::string(5000, 'n')).size() == 1);
   gonio::write_file_atomically(folder / "syntax.json", "{\n  \"context\": }");
   CHECK(faults(folder / "syntax.json").at(0).where == (folder / "syntax.json").string() + ":2:14");
   gonio::write_file_atomically(folder / "schema.json", "{\"checks\": 5}");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The run store's SQL in a real SQLite: what it takes and what it refuses.
+#include <fmt/format.h>
 #include <sqlite3.h>
 
-#include "data-schemas/embedded.hpp"
+#include "data-schemas/document.hpp"
 #include "tests/check.hpp"
 
 namespace {
@@ -45,6 +46,25 @@ TEST_CASE("the run store is made and marked", "[run_sql]") {
   CHECK(database.value("PRAGMA user_version") == "1");
   CHECK(database.value("SELECT group_concat(name) FROM (SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name)") ==
         "calibration,event,meta,reading,step");
+}
+
+TEST_CASE("the column dictionary holds every table and every column of the run store", "[run_sql]") {
+  const std::string dictionary = gonio::read_file(std::filesystem::path(GONIO_SOURCE_DIR) / "data-schemas" / "columns.md");
+  Database database;
+  REQUIRE(database.takes(std::string(gonio::run_sql())));
+  for (const char* table : {"meta", "step", "reading", "event", "calibration"}) {
+    const std::size_t start = dictionary.find("### `" + std::string(table) + "`");
+    REQUIRE(start != std::string::npos);
+    const std::string section = dictionary.substr(start, dictionary.find("\n### ", start) - start);
+    int columns = 0;
+    for (std::string name;
+         !(name = database.value(fmt::format("SELECT name FROM pragma_table_info('{}') WHERE cid = {}", table, columns))).empty();
+         ++columns) {
+      INFO(table << '.' << name);
+      CHECK(section.find('`' + name + '`') != std::string::npos);
+    }
+    CHECK(columns >= 2);
+  }
 }
 
 TEST_CASE("a reading stands once for its step, attempt and repeat", "[run_sql]") {

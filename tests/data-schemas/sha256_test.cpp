@@ -4,8 +4,9 @@
 
 #include "brdf/error.hpp"
 #include "data-schemas/write_file.hpp"
-#include "tests/check.hpp"
 #include "tests/data-schemas/temporary_folder.hpp"
+
+#include "tests/check.hpp"
 
 using gonio::sha256;
 

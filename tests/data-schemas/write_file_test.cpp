@@ -10,8 +10,9 @@
 
 #include "brdf/error.hpp"
 #include "data-schemas/document.hpp"
-#include "tests/check.hpp"
 #include "tests/data-schemas/temporary_folder.hpp"
+
+#include "tests/check.hpp"
 
 using gonio::write_file_atomically;
 namespace fs = std::filesystem;
