@@ -9,7 +9,15 @@ namespace {
 
 class DatasetObservations final : public Observations {
  public:
-  explicit DatasetObservations(std::shared_ptr<const Dataset> dataset) : dataset_(std::move(dataset)) { dataset_->require_consistent(); }
+  explicit DatasetObservations(std::shared_ptr<const Dataset> dataset) : dataset_(std::move(dataset)) {
+    dataset_->require_consistent();
+    for (const Channel& channel : dataset_->channels) {
+      auto column = dataset_->extra.find("var_read_" + channel.name);
+      if (column == dataset_->extra.end() && dataset_->channels.size() == 1) column = dataset_->extra.find("var_read");
+      if (column != dataset_->extra.end()) read_variance_.push_back(&column->second);
+    }
+    if (read_variance_.size() != dataset_->channels.size()) read_variance_.clear();
+  }
 
   const Channels& channels() const override { return dataset_->channels; }
   Symmetry symmetry() const override { return dataset_->symmetry; }
@@ -21,6 +29,7 @@ class DatasetObservations final : public Observations {
     block.size = size_of(index);
     for (const auto& values : dataset_->f) block.f.push_back({values.data() + first});
     for (const auto& values : dataset_->u) block.u.push_back({values.data() + first});
+    for (const auto* values : read_variance_) block.read_variance.push_back({values->data() + first});
     return block;
   }
 
@@ -43,6 +52,7 @@ class DatasetObservations final : public Observations {
   }
 
   std::shared_ptr<const Dataset> dataset_;
+  std::vector<const std::vector<double>*> read_variance_;  ///< one per channel, or empty
 };
 
 }  // namespace

@@ -43,9 +43,10 @@ enum class ConstantOver { nothing, theta_h, incidence };
 struct ObservationBlock {
   std::size_t size = 0;
   ConstantOver constant = ConstantOver::nothing;
-  double log_cos_h = 0;   ///< of the whole block, if constant == theta_h
-  std::vector<Column> f;  ///< one per channel, 1/sr; NaN where this channel has no value
-  std::vector<Column> u;  ///< one per channel, 1/sr, or empty: unknown
+  double log_cos_h = 0;               ///< of the whole block, if constant == theta_h
+  std::vector<Column> f;              ///< one per channel, 1/sr; NaN where this channel has no value
+  std::vector<Column> u;              ///< one per channel, 1/sr, or empty: unknown
+  std::vector<Column> read_variance;  ///< one per channel, 1/sr²: the part of u² that does not grow with f; or empty: unknown
   /// Which samples count: all, those with mask[k] != 0, or (MERL) those where no channel is negative.
   enum class Validity { all, mask, no_channel_negative } validity = Validity::all;
   const std::uint8_t* mask = nullptr;
@@ -78,7 +79,8 @@ class Observations {
   virtual std::vector<CorrelatedComponent> correlated() const { return {}; }
 };
 
-/// A data set as observations; shares ownership of it.
+/// A data set as observations; shares ownership of it. The extra columns `var_read_<channel>`, or `var_read` for a single channel,
+/// become the read variance.
 std::unique_ptr<Observations> observe(std::shared_ptr<const Dataset> dataset);
 
 }  // namespace gonio

@@ -43,10 +43,10 @@ struct FittedParameter {
   std::string name;
   std::optional<std::size_t> channel;  ///< nullopt: shared by all channels
   double value = 0;
-  std::optional<double> sigma;         ///< standard uncertainty; none where it does not exist, never 0
-  std::optional<double> low, high;     ///< ends of the interval that exist for `kind`
+  std::optional<double> sigma;      ///< standard uncertainty; none where it does not exist, never 0
+  std::optional<double> low, high;  ///< ends of the interval that exist for `kind`
   IntervalKind kind = IntervalKind::unidentified;
-  double lower = 0, upper = 0;         ///< bounds of the search
+  double lower = 0, upper = 0;  ///< bounds of the search
 };
 
 /// Another local minimum of the profile over the nonlinear parameter.
@@ -75,7 +75,7 @@ struct FitResult {
   std::size_t n_observations = 0;  ///< samples used
   std::size_t n_masked = 0;        ///< cells of the observations that are no measurement, and f <= 0 under `log`
   std::vector<OtherMinimum> other_minima;
-  std::vector<Check> checks;       ///< energy_bound, at_bound, adequacy, second_minimum
+  std::vector<Check> checks;  ///< energy_bound, at_bound, adequacy, second_minimum
   double fit_s = 0;
 };
 

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/fit_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fitting/distributions.hpp"
+
+namespace gonio::fitting {
+namespace {
+
+constexpr double alpha = 0.01, margin = 0.02;
+/// A second minimum within this many budgets of the best (chi² rise of about 4 each) deserves to be looked at.
+constexpr double near_budgets = 3;
+
+}  // namespace
+
+Check energy_bound(const FitResult& result, const ModelKernel& kernel, const std::vector<Matrix>& covariance) {
+  Check check;
+  check.id = "energy_bound";
+  check.unit = std::string("1");
+  check.threshold = 1;
+  check.n = result.values.size();
+  double worst = -1;
+  for (std::size_t c = 0; c < result.values.size(); ++c) {
+    const std::vector<double>& values = result.values[c];
+    const double s = kernel.has_exponent ? values.back() : 1;
+    std::vector<double> bound(kernel.linear), above(kernel.linear), below(kernel.linear);
+    kernel.albedo_bound(s, bound.data());
+    const double step = 1e-5 * s;
+    kernel.albedo_bound(s + step, above.data());
+    kernel.albedo_bound(s - step, below.data());
+    double albedo = 0, by_s = 0;
+    std::vector<double> gradient(kernel.linear + 1);
+    for (std::size_t k = 0; k < kernel.linear; ++k) {
+      albedo += values[k] * bound[k];
+      if (step > 0) by_s += values[k] * (above[k] - below[k]) / (2 * step);
+      gradient[k] = bound[k];
+    }
+    gradient[kernel.linear] = by_s;
+    if (albedo <= worst) continue;
+    worst = albedo;
+    // A parameter that is fixed or at its bound has no variance to add.
+    double variance = 0;
+    for (std::size_t a = 0; a < gradient.size(); ++a)
+      for (std::size_t b = 0; b < gradient.size(); ++b)
+        if (std::isfinite(covariance[c](a, b))) variance += gradient[a] * covariance[c](a, b) * gradient[b];
+    check.effect = albedo;
+    check.u_effect = variance > 0 ? std::optional(std::sqrt(variance)) : std::nullopt;
+  }
+  const double u = check.u_effect.value_or(0), z = u > 0 ? (worst - 1) / u : (worst > 1 ? 1e9 : -1e9);
+  check.statistic = u > 0 ? std::optional(z) : std::nullopt;
+  check.p_value = u > 0 ? std::optional(normal_upper_tail(z)) : std::nullopt;
+  check.effect_upper = worst + normal_upper_quantile(alpha) * u;
+  check.verdict = judge(normal_upper_tail(z) < alpha, worst, *check.effect_upper, 1 + margin);
+  check.detail = fmt::format("the fitted model reflects at most {:.4f} ± {:.2g} of the light it receives{}", worst, u,
+                             worst > 1 ? ", more than all of it" : "");
+  return check;
+}
+
+Check at_bound(const FitResult& result) {
+  Check check;
+  check.id = "at_bound";
+  check.n = result.parameters.size();
+  std::string names;
+  for (const FittedParameter& parameter : result.parameters) {
+    if (parameter.kind == IntervalKind::fixed) continue;
+    if (parameter.value > parameter.lower && parameter.value < parameter.upper) continue;
+    names += fmt::format("{}{}{}", names.empty() ? "" : ", ", parameter.name,
+                         parameter.channel ? fmt::format(" of {}", result.channels[*parameter.channel].name) : "");
+  }
+  check.verdict = names.empty() ? Verdict::pass : Verdict::warn;
+  check.detail =
+      names.empty() ? "no parameter lies at an end of its search range" : fmt::format("at an end of the search range: {}", names);
+  return check;
+}
+
+Check adequacy(double chi2, double dof, double signal_to_noise2, std::size_t n, bool has_uncertainty) {
+  Check check;
+  check.id = "adequacy";
+  check.unit = std::string("1");
+  check.threshold = margin;
+  check.n = n;
+  if (!has_uncertainty || !(dof >= 1)) {
+    check.verdict = Verdict::vacuous;
+    check.detail = has_uncertainty ? "there are no more samples than parameters, so any model of this size fits"
+                                   : "the data carry no uncertainty, so no residual can be called too large";
+    return check;
+  }
+  const double spread = std::sqrt(2 * dof);  // of chi²
+  const auto misfit = [&](double excess) { return std::sqrt(std::max(0.0, excess) / signal_to_noise2); };
+  check.statistic = chi2;
+  check.p_value = chi2_upper_tail(chi2, dof);
+  check.effect = misfit(chi2 - dof);
+  check.effect_upper = misfit(chi2 - dof + normal_upper_quantile(alpha) * spread);
+  if (*check.effect > 0) check.u_effect = spread / signal_to_noise2 / (2 * *check.effect);
+  check.verdict = judge(*check.p_value < alpha, *check.effect, *check.effect_upper, margin);
+  check.detail = fmt::format("chi² {:.4g} with {:.0f} degrees of freedom: the model misses the data by {:.2g} % beyond their noise", chi2,
+                             dof, 100 * *check.effect);
+  return check;
+}
+
+Check second_minimum(const FitResult& result, double budget, double best_cost) {
+  Check check;
+  check.id = "second_minimum";
+  check.n = result.other_minima.size();
+  if (result.other_minima.empty()) {
+    check.verdict = Verdict::pass;
+    check.detail = "the profile over the exponent has one minimum";
+    return check;
+  }
+  const auto nearest = std::min_element(result.other_minima.begin(), result.other_minima.end(),
+                                        [](const OtherMinimum& a, const OtherMinimum& b) { return a.cost < b.cost; });
+  const bool near = nearest->cost <= best_cost + near_budgets * budget;
+  check.effect = nearest->nonlinear.front();
+  check.unit = std::string("1");
+  check.verdict = near ? Verdict::warn : Verdict::pass;
+  check.detail = fmt::format("another local minimum at an exponent of {:.4g} costs {:.3g} times as much{}; it often means a second lobe",
+                             nearest->nonlinear.front(), nearest->cost_ratio, near ? ", hardly worse than the best" : "");
+  return check;
+}
+
+}  // namespace gonio::fitting

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/polish.hpp"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gonio::fitting {
+namespace {
+
+constexpr std::size_t rows_at_once = 512;
+constexpr std::size_t rows_for_qr = 200000;
+
+class Rows final : public ceres::CostFunction {
+ public:
+  Rows(const Terms& terms, std::size_t channel, std::size_t begin, std::size_t end)
+      : terms_(terms), channel_(channel), begin_(begin), end_(end) {
+    set_num_residuals(static_cast<int>(end - begin));
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(terms.kernel.linear));
+    mutable_parameter_block_sizes()->push_back(1);
+  }
+  bool Evaluate(double const* const* parameters, double* out, double** jacobians) const override {
+    return residuals(terms_, channel_, begin_, end_, parameters[0], parameters[1][0], out, jacobians ? jacobians[0] : nullptr,
+                     jacobians ? jacobians[1] : nullptr);
+  }
+
+ private:
+  const Terms& terms_;
+  std::size_t channel_, begin_, end_;
+};
+
+}  // namespace
+
+bool residuals(const Terms& terms, std::size_t channel, std::size_t begin, std::size_t end, const double* linear, double s, double* out,
+               double* by_linear, double* by_s) {
+  const std::size_t rows = end - begin, count = terms.kernel.linear;
+  std::vector<double> columns(count * rows), slopes(count * rows);
+  terms.kernel.basis_and_slope(std::span(terms.geometry).subspan(begin, rows), s, columns.data(), slopes.data(), rows);
+  const ChannelTerms& data = terms.channel[channel];
+  for (std::size_t j = 0; j < rows; ++j) {
+    const std::size_t row = begin + j;
+    const double root = std::sqrt(data.weight[row]), cos_i = terms.geometry[row].cos_i;
+    double f = 0, f_by_s = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      f += linear[k] * columns[k * rows + j];
+      f_by_s += linear[k] * slopes[k * rows + j];
+    }
+    const bool used = root > 0;
+    const double phi = used ? terms.transform.value(f, cos_i) : 0;
+    if (!std::isfinite(phi)) return false;
+    const double slope = used ? root * std::min(terms.transform.slope(f, cos_i), 1e150) : 0;  // cbrt: infinite at f = 0
+    out[j] = used ? root * (phi - data.target[row]) : 0;
+    if (by_linear)
+      for (std::size_t k = 0; k < count; ++k) by_linear[j * count + k] = slope * columns[k * rows + j];
+    if (by_s) by_s[j] = slope * f_by_s;
+  }
+  return true;
+}
+
+Polished polish(const Terms& terms, const std::vector<std::vector<double>>& start, double s, const std::vector<std::vector<double>>& held,
+                bool hold_s, int threads, int most_iterations) {
+  Polished result{start, s, 0, false, {}};
+  ceres::Problem problem;
+  double exponent = s;
+  std::vector<std::vector<double>> linear = start;
+  for (std::size_t c = 0; c < terms.channel.size(); ++c) {
+    for (std::size_t begin = 0; begin < terms.rows(); begin += rows_at_once)
+      problem.AddResidualBlock(new Rows(terms, c, begin, std::min(begin + rows_at_once, terms.rows())), nullptr, linear[c].data(),
+                               &exponent);
+    std::vector<int> constant;
+    for (std::size_t k = 0; k < terms.kernel.linear; ++k) {
+      problem.SetParameterLowerBound(linear[c].data(), static_cast<int>(k), 0);
+      if (!std::isnan(held[c][k])) constant.push_back(static_cast<int>(k));
+    }
+    if (constant.size() == terms.kernel.linear)
+      problem.SetParameterBlockConstant(linear[c].data());
+    else if (!constant.empty())
+      problem.SetManifold(linear[c].data(), new ceres::SubsetManifold(static_cast<int>(terms.kernel.linear), constant));
+  }
+  if (hold_s || !terms.kernel.has_exponent) {
+    problem.SetParameterBlockConstant(&exponent);
+  } else {
+    const Parameter& bounds = terms.kernel.info->parameters[terms.kernel.linear];
+    problem.SetParameterLowerBound(&exponent, 0, bounds.lower);
+    problem.SetParameterUpperBound(&exponent, 0, bounds.upper);
+  }
+  ceres::Solver::Options options;
+  // QR squares no condition number; a large table would need a gigabyte for it.
+  options.linear_solver_type = terms.rows() * terms.channel.size() <= rows_for_qr ? ceres::DENSE_QR : ceres::DENSE_NORMAL_CHOLESKY;
+  options.num_threads = threads;
+  options.max_num_iterations = most_iterations;
+  options.function_tolerance = 1e-14;  // quadratic convergence: tight costs one more step (numerics F4)
+  options.parameter_tolerance = 1e-12;
+  options.gradient_tolerance = 1e-16;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  double constants = 0;
+  for (const ChannelTerms& channel : terms.channel) constants += channel.within;
+  result.converged = summary.termination_type == ceres::CONVERGENCE;
+  result.cost = 2 * (result.converged ? summary.final_cost : summary.initial_cost) + constants;
+  if (!result.converged) {
+    result.reason = summary.message;
+    return result;
+  }
+  result.linear = linear;
+  result.s = exponent;
+  return result;
+}
+
+}  // namespace gonio::fitting

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/terms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fitting/collapse.hpp"
+#include "fitting/threads.hpp"
+
+namespace gonio::fitting {
+namespace {
+
+/// The data carry u if every channel has it for at least this part of its values.
+constexpr double enough_known = 0.5;
+
+bool known(double u) { return u > 0 && std::isfinite(u); }
+
+bool carries_uncertainty(const Observations& observations) {
+  std::vector<std::size_t> values(observations.channels().size()), with_u(values.size());
+  for (std::size_t b = 0; b < observations.block_count(); ++b) {
+    const ObservationBlock block = observations.block(b);
+    if (block.u.size() != values.size()) return false;
+    for (std::size_t k = 0; k < block.size; ++k) {
+      if (!block.valid(k)) continue;
+      for (std::size_t c = 0; c < values.size(); ++c) {
+        if (!std::isfinite(block.f[c][k])) continue;
+        ++values[c];
+        with_u[c] += known(block.u[c][k]);
+      }
+    }
+  }
+  for (std::size_t c = 0; c < values.size(); ++c)
+    if (with_u[c] == 0 || static_cast<double>(with_u[c]) < enough_known * static_cast<double>(values[c])) return false;
+  return true;
+}
+
+/// Whether every block may become one row: θh constant (or of no interest), and nothing that differs from sample to sample needed later.
+bool can_collapse(const Observations& observations, const ModelKernel& kernel, Metric metric) {
+  if (metric == Metric::log1p) return false;
+  if (kernel.info->depends_on != DependsOn::theta_h && kernel.info->depends_on != DependsOn::nothing) return false;
+  for (const CorrelatedComponent& component : observations.correlated())
+    if (!component.sensitivity.empty()) return false;
+  for (std::size_t b = 0; b < observations.block_count(); ++b)
+    if (observations.block(b).constant != ConstantOver::theta_h) return false;
+  return observations.block_count() > 0;
+}
+
+void append(Terms& to, const Terms& part) {
+  const auto extend = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
+  extend(to.geometry, part.geometry);
+  extend(to.sample, part.sample);
+  for (std::size_t c = 0; c < to.channel.size(); ++c) {
+    ChannelTerms& all = to.channel[c];
+    const ChannelTerms& more = part.channel[c];
+    extend(all.target, more.target);
+    extend(all.weight, more.weight);
+    extend(all.value, more.value);
+    extend(all.u2, more.u2);
+    extend(all.read_variance, more.read_variance);
+    all.within += more.within;
+    all.weighted_value2 += more.weighted_value2;
+    all.count += more.count;
+  }
+  to.n_observations += part.n_observations;
+  to.n_masked += part.n_masked;
+}
+
+Terms collapsed_block(const Observations& observations, std::size_t index, Transform transform, bool weighted) {
+  Terms out;
+  const CollapsedBlock sums = collapse(observations, index, transform, weighted);
+  LobeGeometry geometry;
+  geometry.log_cos_h = observations.block(index).log_cos_h;
+  out.geometry.push_back(geometry);
+  for (const BlockSums& sum : sums.channel) {
+    ChannelTerms terms;
+    terms.target = {sum.mean};
+    terms.weight = {sum.weight};
+    terms.within = sum.within;
+    terms.weighted_value2 = sum.weighted_value2;
+    terms.count = sum.count;
+    out.channel.push_back(std::move(terms));
+  }
+  out.n_observations = sums.used;
+  out.n_masked = sums.masked;
+  return out;
+}
+
+Terms block_rows(const Observations& observations, std::size_t index, std::size_t first_sample, Transform transform, bool weighted) {
+  Terms out;
+  const ObservationBlock block = observations.block(index);
+  const std::size_t channels = block.f.size();
+  out.channel.resize(channels);
+  std::vector<LobeGeometry> geometry;
+  observations.geometry(index, geometry);
+  for (std::size_t k = 0; k < block.size; ++k) {
+    const LobeGeometry& g = geometry[k];
+    const bool valid = block.valid(k) && g.cos_i >= 0 && g.cos_o >= 0;
+    std::vector<char> use(channels);
+    for (std::size_t c = 0; c < channels; ++c) {
+      const double f = block.f[c][k];
+      use[c] = valid && std::isfinite(f) && transform.defined(f, g.cos_i) && (!weighted || known(block.u[c][k]));
+    }
+    const auto used = std::count(use.begin(), use.end(), 1);
+    out.n_observations += used > 0;
+    out.n_masked += used < static_cast<std::ptrdiff_t>(channels);
+    if (used == 0) continue;
+    out.geometry.push_back(g);
+    out.sample.push_back(first_sample + k);
+    for (std::size_t c = 0; c < channels; ++c) {
+      ChannelTerms& terms = out.channel[c];
+      const double f = use[c] ? block.f[c][k] : 0;
+      const double u = weighted && use[c] ? block.u[c][k] : 1;
+      const double slope = weighted && use[c] ? transform.slope(f, g.cos_i) : 1;
+      const double cosine = transform.metric == Metric::linear_cos && !weighted ? g.cos_i : 1;
+      const double weight = use[c] ? cosine * cosine / (u * u * slope * slope) : 0;
+      terms.target.push_back(use[c] ? transform.value(f, g.cos_i) : 0);
+      terms.weight.push_back(std::isfinite(weight) ? weight : 0);
+      terms.value.push_back(f);
+      if (weighted) {
+        terms.u2.push_back(u * u);
+        terms.read_variance.push_back(block.read_variance.empty() ? std::nan("") : block.read_variance[c][k]);
+        terms.weighted_value2 += use[c] ? f * f / (u * u) : 0;
+      }
+      terms.count += static_cast<std::size_t>(use[c]);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads) {
+  const std::size_t blocks = observations.block_count();
+  Terms terms;
+  terms.kernel = kernel;
+  terms.transform = {metric};
+  terms.channel.resize(observations.channels().size());
+  terms.weighted = carries_uncertainty(observations);
+  terms.collapsed = can_collapse(observations, kernel, metric);
+  std::vector<std::size_t> first(blocks + 1, 0);
+  for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + observations.block(b).size;
+  std::vector<Terms> parts(blocks);
+  for_each_index(blocks, threads, [&](std::size_t b) {
+    parts[b] = terms.collapsed ? collapsed_block(observations, b, terms.transform, terms.weighted)
+                               : block_rows(observations, b, first[b], terms.transform, terms.weighted);
+  });
+  for (const Terms& part : parts) append(terms, part);
+  return terms;
+}
+
+Terms only_channel(const Terms& terms, std::size_t channel) {
+  Terms one = terms;
+  one.channel = {terms.channel[channel]};
+  return one;
+}
+
+bool reweight(Terms& terms, const std::vector<std::vector<double>>& linear, double s) {
+  if (!terms.weighted || terms.collapsed) return false;
+  const std::size_t rows = terms.rows();
+  std::vector<double> columns(terms.kernel.linear * rows);
+  terms.kernel.basis(terms.geometry, s, columns.data(), rows);
+  bool changed = false;
+  for (std::size_t c = 0; c < terms.channel.size(); ++c) {
+    ChannelTerms& channel = terms.channel[c];
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double f = channel.value[row], read = channel.read_variance[row], shot = channel.u2[row] - read;
+      double fitted = 0;
+      for (std::size_t k = 0; k < terms.kernel.linear; ++k) fitted += linear[c][k] * columns[k * rows + row];
+      // A reading at or below zero says nothing about its own gain; its variance stays as it came.
+      if (!(channel.weight[row] > 0) || !(read > 0) || !(shot > 0) || !(f > 0) || !(fitted > 0)) continue;
+      const double variance = read + shot * fitted / f;
+      const double slope = terms.transform.slope(fitted, terms.geometry[row].cos_i);
+      const double weight = 1 / (variance * slope * slope);
+      if (std::isfinite(weight) && weight > 0) channel.weight[row] = weight, changed = true;
+    }
+  }
+  return changed;
+}
+
+}  // namespace gonio::fitting

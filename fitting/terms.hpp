@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Observations as the terms of the sum a fit minimises: one row per sample, or one per block where nothing is lost.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "brdf/observations.hpp"
+#include "fitting/model_kernel.hpp"
+#include "fitting/transform.hpp"
+
+namespace gonio::fitting {
+
+/// One channel: row j adds weight[j] (φ(f̂_j) - target[j])², and all rows together the constant `within`.
+struct ChannelTerms {
+  std::vector<double> target;             ///< φ(f), or its weighted mean over a collapsed block
+  std::vector<double> weight;             ///< 0: this row has no value in this channel
+  std::vector<double> value;              ///< f [1/sr] where the rows are single samples, else empty
+  std::vector<double> u2, read_variance;  ///< 1/sr², single samples with uncertainty only
+  double within = 0;                      ///< centred sum of squares inside collapsed blocks
+  double weighted_value2 = 0;             ///< Σ weight φ'² f²: the signal-to-noise in all, where the data carry u
+  std::size_t count = 0;                  ///< samples used
+};
+
+struct Terms {
+  ModelKernel kernel;
+  Transform transform;
+  std::vector<LobeGeometry> geometry;  ///< one per row
+  std::vector<std::size_t> sample;     ///< number of the sample of every row; empty if collapsed
+  std::vector<ChannelTerms> channel;
+  bool weighted = false;   ///< weights are 1/variance, so that the sum is a χ²
+  bool collapsed = false;  ///< a row is a whole block
+  std::size_t n_observations = 0, n_masked = 0;
+
+  std::size_t rows() const noexcept { return geometry.size(); }
+};
+
+/// Which samples count and how much:
+///   - masked, with a NaN value, below the horizon, or f <= 0 under `log` (1 + f cos θi <= 0 under `log1p`): left out and counted;
+///   - the data carry u if every channel has it for at least half of its values; then values with unknown u are left out and counted too,
+///     otherwise every weight is 1;
+///   - a sample with a zenith angle of exactly 90° is compared with the model's limit there.
+/// `n_observations` counts samples with a value used, `n_masked` those with a value left out.
+///
+/// Blocks over which θh is constant collapse to one row if the model depends on nothing else and the metric allows it (log1p does not):
+/// Σ w (φ - φ̂)² = W (φ̄ - φ̂)² + Σ w (φ - φ̄)², exact, with the centred sum formed apart.
+Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads);
+
+/// The terms of one channel alone.
+Terms only_channel(const Terms& terms, std::size_t channel);
+
+/// Weights from the fitted values instead of the readings, where the read variance is known: the shot part of the variance grows with
+/// f, var(f̂) = var_read + (u² - var_read) f̂/f. Weights from the readings themselves favour low readings (numerics C13).
+/// Returns false if there is nothing to change.
+bool reweight(Terms& terms, const std::vector<std::vector<double>>& linear, double s);
+
+}  // namespace gonio::fitting
