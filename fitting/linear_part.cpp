@@ -137,8 +137,7 @@ Range range_of(const SmallSystem& system, std::size_t k, double budget) {
     const auto subset = solve_subset(system, rhs, mask);
     if (subset && subset->square <= budget) {
       if (!(mask & own)) {
-        if subset
-          ->feasible() include(0);
+        if (subset->feasible()) include(0);
       } else {
         Eigen::Index at = 0;
         while (subset->columns[static_cast<std::size_t>(at)] != k) ++at;

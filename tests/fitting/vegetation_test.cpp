@@ -4,8 +4,9 @@
 #include <sstream>
 
 #include "fitting/fit.hpp"
-#include "tests/check.hpp"
 #include "tests/shared_data.hpp"
+
+#include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::fitting;
