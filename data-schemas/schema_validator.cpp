@@ -3,6 +3,7 @@
 #include "data-schemas/schema_validator.hpp"
 
 #include <cmath>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
@@ -57,7 +58,10 @@ SchemaValidator::~SchemaValidator() = default;
 SchemaValidator::SchemaValidator(SchemaValidator&&) noexcept = default;
 
 bool SchemaValidator::accepts(const Json& value) const {
+  // libstdc++ fills a table of std::ctype without a lock when a std::regex is made (GCC bug 77704).
+  static std::mutex one_at_a_time;
   const nlohmann::json document = converted(value);
+  const std::lock_guard lock(one_at_a_time);
   valijson::Validator validator(valijson::Validator::kStrongTypes);
   return validator.validate(compiled_->schema, Adapter(document), nullptr);
 }

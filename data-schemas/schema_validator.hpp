@@ -16,6 +16,7 @@ class SchemaValidator {
   ~SchemaValidator();
   SchemaValidator(SchemaValidator&&) noexcept;
 
+  /// May be called from several threads; they take turns.
   bool accepts(const Json& value) const;
 
  private:

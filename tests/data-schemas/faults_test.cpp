@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Faults of a document against a schema: places and words.
-#include <set>
+#include <atomic>
+#include <thread>
 
 #include "data-schemas/document.hpp"
 #include "tests/check.hpp"
@@ -135,4 +136,17 @@ TEST_CASE("the built-in schemas say nothing against an empty list of faults only
   CHECK(gonio::faults_of(fit, gonio::Schema::fit, "fit").empty());
   CHECK_FALSE(gonio::faults_of(fit, gonio::Schema::checks, "fit").empty());
   CHECK_FALSE(gonio::faults_of(Json(), gonio::Schema::fit, "fit").empty());
+}
+
+TEST_CASE("documents are validated and explained from several threads", "[faults]") {
+  Json wrong = gonio::parse_json(gonio::example_text("converged.fit.json"), "fit");
+  wrong.set("n_masked", -1);
+  std::atomic<std::size_t> count{0};
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      for (int k = 0; k < 10; ++k) count += gonio::faults_of(wrong, gonio::Schema::fit, "fit").size();
+    });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(count == 40);
 }
