@@ -168,7 +168,7 @@ CsvLayout layout_of(const std::vector<std::string>& header, std::size_t column_c
       builder.layout().columns[k] = target;
       if (target.kind == CsvTarget::Kind::ignored && metadata.ours)
         faults.add(faults.file(), fmt::format("a column {} that the lines above do not name", excerpt(header[k])),
-                   "a line '# channel: NAME' or '# extra: NAME'");
+                   "a line '# channel.NUMBER: NAME' or '# extra.NUMBER: NAME'");
     }
   for (const auto& [name, value] : options.set) {
     const std::string where = fmt::format("--set {}", name);
@@ -182,7 +182,8 @@ CsvLayout layout_of(const std::vector<std::string>& header, std::size_t column_c
     if (!builder.is_used(channel.name))
       faults.add(faults.file(), fmt::format("no column {} for the channel of that name", excerpt(channel.name)), "one column per channel");
   for (const std::string& name : metadata.extras)
-    if (!builder.is_used(name)) faults.add(faults.file(), fmt::format("no column {}", excerpt(name)), "one column per line '# extra'");
+    if (!builder.is_used(name))
+      faults.add(faults.file(), fmt::format("no column {}", excerpt(name)), "one column per line '# extra.NUMBER'");
   require_complete(builder, options, faults);
   return std::move(builder.layout());
 }

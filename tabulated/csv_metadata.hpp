@@ -4,10 +4,9 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
-#include "brdf/dataset.hpp"
 #include "tabulated/fault_list.hpp"
+#include "tabulated/metadata.hpp"
 
 namespace gonio::tabulated {
 
@@ -15,14 +14,9 @@ namespace gonio::tabulated {
 /// prose.
 constexpr std::string_view csv_signature = "# gonio samples 1";
 
-/// Lines `# key: value`. Keys:
-/// `channel` (its name; in the order of the columns), `channel.<name>.<field>` (wavelength_in_nm, wavelength_out_nm, bandwidth_nm,
-/// polarisation_in, polarisation_out), `symmetry` (words), `side`, `simulated`, `aperture.<field>`, `correlated.<name>` (its u),
-/// `masked.<reason>`, `extra` (name of a column kept as it came), `provenance.<key>`. `\\`, `\n`, `\r` and, in keys, `\:` are escapes.
-struct CsvMetadata {
-  bool ours = false;                ///< the signature was there
-  Dataset description;              ///< everything of a data set but its samples
-  std::vector<std::string> extras;  ///< columns that are neither angle nor channel nor uncertainty
+/// Lines `# key: value` with the keys of `metadata_entries`; `\\`, `\n`, `\r` and, in keys, `\:` are escapes.
+struct CsvMetadata : Metadata {
+  bool ours = false;  ///< the signature was there
 };
 
 /// Takes one line above the samples. An unknown key or a value that cannot be read is a fault.

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "brdf/error.hpp"
+#include "tabulated/brdf_exr.hpp"
 #include "tabulated/csv.hpp"
 #include "tabulated/merl.hpp"
 
@@ -21,6 +22,12 @@ void write_samples_as_csv(const Opened& opened, const std::filesystem::path& pat
   if (!opened.dataset)
     throw Error(ErrorKind::input, {path.string(), fmt::format("a {} without samples", opened.format), "samples to write as csv"});
   write_csv(*opened.dataset, path);
+}
+
+void write_samples_as_exr(const Opened& opened, const std::filesystem::path& path, const WriteOptions&) {
+  if (!opened.dataset)
+    throw Error(ErrorKind::input, {path.string(), fmt::format("a {} without samples", opened.format), "samples to write as a table"});
+  write_brdf_exr(tabulate(*opened.dataset), path);
 }
 
 void write_brdf_as_merl(const Opened& opened, const std::filesystem::path& path, const WriteOptions& options) {
@@ -50,6 +57,8 @@ const std::vector<Format>& formats() {
   // In the order of recognition: text comes last because anything readable could be it.
   static const std::vector<Format> list{
       {"merl", "90 x 90 x 180 half/difference table of red, green, blue (.binary)", recognises_merl, open_merl, write_brdf_as_merl},
+      {"brdf-exr", "table of incident by outgoing directions as an OpenEXR file (.brdf.exr)", recognises_brdf_exr, open_brdf_exr,
+       write_samples_as_exr},
       {"csv", "samples as text: theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg, values and uncertainties", recognises_csv, open_csv,
        write_samples_as_csv},
   };

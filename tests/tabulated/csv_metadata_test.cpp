@@ -30,9 +30,9 @@ TEST_CASE("Only a file with our signature in its first line is believed") {
 }
 
 TEST_CASE("A line of ours that cannot be read is a fault") {
-  for (const char* line :
-       {"# symmetry: round", "# side: top", "# simulated: maybe", "# aperture.spot_diameter_m: wide", "# aperture.iris_m: 1",
-        "# correlated.scale: -1", "# masked.nan: 1e300", "# masked.nan: -1", "# channel.x.wavelength_in_nm: 550", "# colour: red"})
+  for (const char* line : {"# symmetry: round", "# side: top", "# simulated: maybe", "# aperture.spot_diameter_m: wide",
+                           "# aperture.iris_m: 1", "# correlated.scale: -1", "# masked.nan: 1e300", "# masked.nan: -1",
+                           "# channel.1.wavelength_in_nm: 550", "# channel.2: skipped", "# channel.x: no number", "# colour: red"})
     CHECK(faults_of([&] { read({"# gonio samples 1", line}); }).find("file.csv:2") != std::string::npos);
   CHECK(read({"# gonio samples 1", "# just words", "#: no key of ours"}).ours);
 }
