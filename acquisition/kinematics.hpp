@@ -21,6 +21,8 @@ class Kinematics {
   virtual Pose pose(const AxisAngles& axes) const = 0;
   /// The reason why a pose that could be driven to must not be measured (shadow of the head on the beam, spot beyond the field), or none.
   virtual std::optional<std::string> masked(const Pose& pose) const = 0;
+  /// Axes that set the direction of the light in the frame of the sample: the outer loop of a sweep.
+  virtual std::vector<std::size_t> incident_axes() const = 0;
   /// Why `solutions` is empty, naming axis, angle and limit.
   virtual std::string unreachable_reason(const Pose& pose) const = 0;
 };

@@ -58,7 +58,8 @@ PlanRequest plan_from(const Json& document, const std::string& source = "plan");
 struct SweepPlan {
   std::vector<PlanStep> steps;                  ///< in the order they are measured; masked and unreachable points included
   double predicted_s = 0;                       ///< motion + settling + exposure
-  double travel_deg = 0, travel_bound_deg = 0;  ///< travel of the slowest axis per move, summed; a lower bound of it
+  double travel_deg = 0, travel_bound_deg = 0;  ///< largest angle of any axis per move between sample points, summed; a lower bound of it
+  double motion_s = 0, motion_bound_s = 0;      ///< the same moves in time, which is what the order keeps short; a lower bound of it
   std::size_t count(StepKind kind, StepState state) const;
 };
 

@@ -24,6 +24,7 @@ class SphericalGantry final : public Kinematics {
   /// theta >= 0 and phi in (-180°, 180°], made from degrees: sums of read-back angles with no other rounding.
   Pose pose(const AxisAngles& axes) const override;
   std::optional<std::string> masked(const Pose& pose) const override;
+  std::vector<std::size_t> incident_axes() const override { return {0, 1}; }
   std::string unreachable_reason(const Pose& pose) const override;
 
  private:
