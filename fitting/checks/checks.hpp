@@ -26,6 +26,21 @@ struct CheckSubject {
   std::shared_ptr<const Brdf> brdf;                  ///< for energy of tables and models
 };
 
+/// f(wi, wo) = f(wo, wi) on the partner pairs of a data set (numerics E): χ² of all differences and directed tests against patterns that
+/// change sign under the exchange (cosines, in-plane components, time). Exact partners in the sample's frame; where there are none,
+/// partners at equal azimuth difference, which takes the sample for isotropic and says so.
+/// Effect: root mean square relative difference beyond the noise.
+Check check_reciprocity(const CheckSubject& subject, const CheckOptions& options);
+/// The same (theta_i, theta_o, phi_o - phi_i) at different azimuths of the sample: several data sets of the rotated sample, or
+/// rotated samples inside one. Cochran's Q with harmonic tests: the first tells a tilt, the second an anisotropic sample. Mirror pairs
+/// are no test of isotropy. Effect: relative standard deviation between azimuths beyond the noise.
+Check check_isotropy(const CheckSubject& subject, const CheckOptions& options);
+/// Directional albedo <= 1 for every incidence. Models: the exact bound. Tables: quadrature. Scattered samples: nearest-sample
+/// quadrature over the projected hemisphere, with the part no sample covers bounded. Effect: the largest albedo.
+Check check_energy(const CheckSubject& subject, const CheckOptions& options);
+/// No value is significantly negative: f < -3u against the number noise gives. Effect: the part of the samples beyond that.
+Check check_positivity(const CheckSubject& subject, const CheckOptions& options);
+
 struct CheckEntry {
   const char* id;
   Check (*run)(const CheckSubject&, const CheckOptions&);
