@@ -58,7 +58,7 @@ SchemaValidator::~SchemaValidator() = default;
 SchemaValidator::SchemaValidator(SchemaValidator&&) noexcept = default;
 
 bool SchemaValidator::accepts(const Json& value) const {
-  // libstdc++ fills a table of std::ctype without a lock when a std::regex is made (GCC bug 77704).
+  // libstdc++ fills a table of std::ctype without a lock when a std::regex is made (locale_facets.h, narrow): a data race.
   static std::mutex one_at_a_time;
   const nlohmann::json document = converted(value);
   const std::lock_guard lock(one_at_a_time);
