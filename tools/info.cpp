@@ -112,7 +112,7 @@ int info_verb(const Arguments& arguments, Console& console) {
   else if (const auto first = head.find_first_not_of(" \t\r\n"); first != std::string::npos && head[first] == '{')
     facts = facts_of_setup(path);
   if (facts.empty()) facts = facts_of_brdf(path, flags);
-  facts.emplace(facts.begin() + 1, "size", fmt::format("{} bytes", std::filesystem::file_size(path)));
+  facts.emplace_back("size", fmt::format("{} bytes", std::filesystem::file_size(path)));
 
   if (console.json) {
     Json members = Json::object();

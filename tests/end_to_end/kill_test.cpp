@@ -20,19 +20,13 @@ constexpr int kills_wanted = 100;
 
 /// The demo's bench without drift: a reading then does not depend on when it is taken.
 std::string bench_without_drift() {
-  const Json bench = parse_json(example_text("demo.bench.json"), "bench");
-  Json copy = Json::object();
-  for (const auto& [key, value] : bench.members()) {
-    if (key != "simulated") {
-      copy.set(key, value);
-      continue;
-    }
-    Json simulated = Json::object();
-    for (const auto& [effect, setting] : value.members())
-      if (effect != "drift_per_hour") simulated.set(effect, setting);
-    copy.set(key, simulated);
-  }
-  return copy.dump();
+  Json bench = parse_json(example_text("demo.bench.json"), "bench");
+  Json simulated = bench.at("simulated"), effects = Json::object();
+  for (const auto& [effect, setting] : simulated.at("effects").members())
+    if (effect != "drift_per_hour") effects.set(effect, setting);
+  simulated.set("effects", effects);
+  bench.set("simulated", simulated);
+  return bench.dump();
 }
 
 /// Every accepted reading by (step, repeat): what the meter printed and where the drives were.
