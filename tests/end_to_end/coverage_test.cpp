@@ -4,8 +4,8 @@
 #include <string>
 
 #include "fitting/fit.hpp"
-#include "tests/command.hpp"
 #include "tests/simulated_sweep.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 

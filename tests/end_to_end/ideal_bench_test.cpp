@@ -2,8 +2,8 @@
 // The ideal bench closes the chain: what went in as a model comes out as samples, over real sockets.
 #include <cmath>
 
-#include "tests/command.hpp"
 #include "tests/simulated_sweep.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
