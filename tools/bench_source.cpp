@@ -65,18 +65,19 @@ std::vector<std::string> plan_lines(const SweepPlan& plan, const Bench& bench) {
   lines.push_back(fmt::format("{} steps on bench '{}': {} samples, {} dark, {} reference readings", plan.steps.size(), bench.name,
                               plan.count(StepKind::sample, StepState::ok), plan.count(StepKind::dark, StepState::ok),
                               plan.count(StepKind::reference, StepState::ok)));
-  std::map<std::string, std::size_t> reasons;
-  for (const PlanStep& step : plan.steps)
-    if (step.state != StepState::ok) ++reasons[fmt::format("{}: {}", name(step.state), step.reason)];
-  constexpr std::size_t most = 12;
-  std::size_t shown = 0;
-  for (const auto& [reason, count] : reasons) {
-    if (shown++ == most) {
-      lines.push_back(fmt::format("  and {} more reasons; --list names every point", reasons.size() - most));
-      break;
-    }
-    lines.push_back(fmt::format("  {:5} {}", count, reason));
+  // Points by what is wrong with them, with the first one's own words.
+  struct Group {
+    std::size_t count = 0;
+    std::string example;
+  };
+  std::map<std::string, Group> groups;
+  for (const PlanStep& step : plan.steps) {
+    if (step.state == StepState::ok) continue;
+    Group& group = groups[fmt::format("{}: {}", name(step.state), step.reason.substr(0, step.reason.find(':')))];
+    if (group.count++ == 0) group.example = step.reason.substr(std::min(step.reason.size(), step.reason.find(':')));
   }
+  for (const auto& [what, group] : groups)
+    lines.push_back(fmt::format("  {:5} {}{}", group.count, what, group.count == 1 ? group.example : " (--list says why for each)"));
   lines.push_back(fmt::format("  predicted {}; travel {:.0f}° of the slowest axis, {:.2f} times the lower bound",
                               duration_text(plan.predicted_s), plan.travel_deg,
                               plan.travel_bound_deg > 0 ? plan.travel_deg / plan.travel_bound_deg : 1.0));

@@ -11,6 +11,14 @@
 #include <sstream>
 
 namespace gonio::tools {
+namespace {
+
+bool on_terminal() {
+  static const bool terminal = isatty(STDERR_FILENO) != 0;
+  return terminal;
+}
+
+}  // namespace
 
 void Console::print(std::string_view line) const { std::cout << line << '\n'; }
 
@@ -22,12 +30,13 @@ void Console::note(std::string_view line) const {
 
 void Console::progress(std::string_view line) const {
   if (quiet) return;
-  static const bool terminal = isatty(STDERR_FILENO) != 0;
-  if (terminal)
-    std::cerr << (line.empty() ? "\r\033[K" : "\r\033[K") << line << std::flush;
+  if (on_terminal())
+    std::cerr << "\r\033[K" << line << std::flush;
   else if (!line.empty())
     std::cerr << line << '\n';
 }
+
+std::chrono::milliseconds Console::progress_interval() const { return std::chrono::milliseconds(on_terminal() ? 500 : 10000); }
 
 void Console::note_masked(const std::string& file, const MaskedCounts& masked) const {
   if (masked.total() == 0) return;

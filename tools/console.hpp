@@ -2,6 +2,7 @@
 // How a verb talks: results on standard output, progress and notes on standard error, JSON for machines.
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,8 @@ struct Console {
   void note(std::string_view line) const;
   /// Replaces the line of progress (on a terminal) or adds one (elsewhere); empty ends it.
   void progress(std::string_view line) const;
+  /// How often progress is worth a line: twice a second on a terminal, every ten seconds in a log.
+  std::chrono::milliseconds progress_interval() const;
   /// One line about what was not used as a measurement, if there is any.
   void note_masked(const std::string& file, const MaskedCounts& masked) const;
 };

@@ -43,7 +43,8 @@ Facts facts_of_run(const std::string& path) {
   for (const auto& [kind, count] : wanted)
     facts.emplace_back(fmt::format("{} steps", name(kind)), fmt::format("{} of {} measured", done[kind], count));
   facts.emplace_back("readings", std::to_string(run.readings().size()));
-  for (const auto& [key, value] : run.meta()) facts.emplace_back(key, value.size() > 100 ? value.substr(0, 100) + "…" : value);
+  for (const auto& [key, value] : run.meta())
+    if (key != "bench" && key != "plan") facts.emplace_back(key, value);  // the whole documents are too long to print
   return facts;
 }
 

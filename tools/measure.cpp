@@ -42,9 +42,9 @@ SweepResult measure(Run& run, const Bench& bench, std::shared_ptr<const Brdf> sa
   auto shown = Wall::now();
   options.progress = [&](const SweepProgress& p) {
     const auto now = Wall::now();
-    if (now - shown < std::chrono::milliseconds(500) && p.done != p.total) return;
+    if (now - shown < console.progress_interval()) return;
     shown = now;
-    console.progress(fmt::format("sweep: {} of {} readings, bench time {}, {} to go", p.done, p.total, duration_text(p.bench_s),
+    console.progress(fmt::format("sweep: {} of {} steps, bench time {}, {} to go", p.done, p.total, duration_text(p.bench_s),
                                  duration_text(p.eta_wall_s)));
   };
   const SweepResult result = sweep(run, plan, *devices.gantry, *devices.detector, *devices.source, *devices.clock, options);

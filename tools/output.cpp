@@ -37,9 +37,11 @@ std::string channel_name(const fitting::FitResult& result, const fitting::Fitted
   return parameter.channel ? result.channels[*parameter.channel].name : std::string();
 }
 
-/// Two significant digits of the uncertainty decide how many of the value are printed.
+/// Decimals that show two significant digits of a width.
+int decimals_for(double width) { return width > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 15) : 15; }
+
 std::string with_uncertainty(double value, double u) {
-  const int digits = std::clamp(1 - static_cast<int>(std::floor(std::log10(u))), 0, 12);
+  const int digits = decimals_for(u);
   return fmt::format("{:.{}f} ± {:.{}f}", value, digits, u, digits);
 }
 

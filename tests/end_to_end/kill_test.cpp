@@ -88,7 +88,7 @@ TEST_CASE("a sweep killed at 100 random instants and resumed reads bit for bit w
     while (true) {
       test::Process sweep(command(out, started));
       // Most instants fall into the sweep itself, some into start-up and the end. Only the choice of instant depends on real time.
-      const int instant_ms = std::uniform_int_distribution<int>(0, 120)(random);
+      const int instant_ms = std::uniform_int_distribution<int>(0, 250)(random);
       if (kills < kills_wanted && !sweep.ends_within(instant_ms)) {
         sweep.signal(SIGKILL);
         sweep.wait();
