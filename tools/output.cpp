@@ -48,7 +48,11 @@ std::string with_uncertainty(double value, double u) {
 std::string interval_text(const fitting::FittedParameter& p) {
   using fitting::IntervalKind;
   switch (p.kind) {
-    case IntervalKind::interval: return fmt::format("95 % interval [{:.6g}, {:.6g}]", p.low.value_or(NAN), p.high.value_or(NAN));
+    case IntervalKind::interval: {
+      const double low = p.low.value_or(NAN), high = p.high.value_or(NAN);
+      const int digits = decimals_for(high - low);
+      return fmt::format("95 % interval [{:.{}f}, {:.{}f}]", low, digits, high, digits);
+    }
     case IntervalKind::lower_bound: return fmt::format("at least {:.6g} (95 %)", p.low.value_or(NAN));
     case IntervalKind::upper_bound: return fmt::format("at most {:.6g} (95 %)", p.high.value_or(NAN));
     case IntervalKind::unidentified: return "the data do not determine it";
