@@ -6,6 +6,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <system_error>
 
 #include "acquisition/sqlite.hpp"
@@ -15,8 +17,32 @@
 namespace gonio::acquisition {
 namespace {
 
-constexpr std::int64_t application_id = 1735356009;  // as data-schemas/run.sql
-constexpr std::int64_t schema_version = 1;
+constexpr std::uint32_t application_id = 1735356009;  // as data-schemas/run.sql
+constexpr std::uint32_t schema_version = 1;
+
+/// Looks at the header of the file (SQLite file format 1.3) before SQLite does: a file of another program must stay as it is.
+void require_run_file(const std::filesystem::path& path) {
+  const auto refuse = [&](const std::string& found, const std::string& wanted) {
+    throw Error(ErrorKind::input, Fault{path.string(), found, wanted});
+  };
+  constexpr std::string_view magic("SQLite format 3\0", 16);
+  std::array<char, 100> header{};
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse("a file that cannot be read", "a run file (.gonio)");
+  file.read(header.data(), header.size());
+  if (file.gcount() != header.size() || std::string_view(header.data(), magic.size()) != magic)
+    refuse("no SQLite file", "a run file (.gonio)");
+  const auto number = [&](std::size_t offset) {
+    std::uint32_t value = 0;
+    for (std::size_t k = 0; k < 4; ++k) value = value << 8 | static_cast<std::uint8_t>(header[offset + k]);
+    return value;
+  };
+  if (const auto id = number(68); id != application_id)
+    refuse(fmt::format("an SQLite file with application id {}", id), "a run file (.gonio)");
+  if (const auto version = number(60); version != schema_version) {
+    refuse(fmt::format("run schema version {}", version), fmt::format("version {}", schema_version));
+  }
+}
 
 /// Numbers in JSON in their shortest form that reads back as the same bits.
 template <class Numbers>
@@ -68,10 +94,6 @@ struct Run::Store {
     }
   }
 
-  std::int64_t pragma(const std::string& name) {
-    auto s = database.prepare("PRAGMA " + name);
-    return s.step() ? s.integer(0) : 0;
-  }
   std::string meta(const std::string& key) {
     auto s = database.prepare("SELECT value FROM meta WHERE key = ?");
     s.bind(key);
@@ -96,57 +118,62 @@ Run& Run::operator=(Run&&) noexcept = default;
 Run Run::create(const std::filesystem::path& path, const Bench& bench, const PlanRequest& request, const SweepPlan& plan,
                 const RunStorage& storage) {
   if (std::filesystem::exists(path)) throw Error(ErrorKind::input, Fault{path.string(), "a file that exists", "a new file, or --resume"});
-  try {
-    auto store = std::make_unique<Store>(path, sqlite::Database::Mode::create, storage);
-    sqlite::Database& db = store->database;
-    db.execute("BEGIN");
-    db.execute(std::string(run_sql()));
-    store->set_meta("bench", bench.document.dump());
-    store->set_meta("bench_sha256", bench.sha256);
-    store->set_meta("plan", request.document.dump());
-    store->set_meta("plan_sha256", request.sha256);
-    store->set_meta("seed", std::to_string(bench.seed));
-    store->set_meta("simulated", bench.is_simulated ? "true" : "false");
-    auto insert = db.prepare("INSERT INTO step VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
-    std::int64_t position = 0;
-    for (const PlanStep& s : plan.steps) {
-      insert.bind(s.number).bind(position++).bind(std::string(name(s.kind)));
-      insert.bind(s.pose.theta_i.degrees()).bind(s.pose.phi_i.degrees()).bind(s.pose.theta_o.degrees()).bind(s.pose.phi_o.degrees());
-      insert.bind(json_array(s.axes)).bind(s.exposure_s).bind(std::string(name(s.state))).bind(s.reason).bind(s.rotation_deg);
-      s.partner < 0 ? insert.bind_null() : insert.bind(s.partner);
-      insert.step();
-    }
-    auto calibration = db.prepare("INSERT INTO calibration VALUES (?, ?, ?, ?, ?)");
-    const auto calibrate = [&](const std::string& what, double value, double u, const char* unit, const std::string& source) {
-      calibration.bind(what).bind(value);
-      u > 0 ? calibration.bind(u) : calibration.bind_null();
-      calibration.bind(std::string(unit)).bind(source).step();
-    };
-    const Reference& white = bench.reference;
-    calibrate("reference_f", white.f_per_sr, white.u_relative * white.f_per_sr, "1/sr", "certificate of " + white.name);
-    for (const auto& [component, u] : bench.correlated) calibrate(component, 1, u, "1", "bench file");
-    db.execute("COMMIT");
-    return Run(std::move(store));
-  } catch (...) {
+  // Written under another name and renamed when complete: a run file that exists holds its whole plan.
+  const std::filesystem::path growing = path.string() + ".new";
+  const auto remove_growing = [&] {
     std::error_code ignored;
-    for (const char* suffix : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(path.string() + suffix, ignored);
+    for (const char* suffix : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(growing.string() + suffix, ignored);
+  };
+  remove_growing();
+  try {
+    write_plan(growing, bench, request, plan, storage);
+    std::filesystem::rename(growing, path);
+  } catch (const std::filesystem::filesystem_error& e) {
+    remove_growing();
+    throw Error(ErrorKind::input, Fault{path.string(), e.code().message(), "a file that can be made"});
+  } catch (...) {
+    remove_growing();
     throw;
   }
+  return open(path, true, storage);
+}
+
+void Run::write_plan(const std::filesystem::path& path, const Bench& bench, const PlanRequest& request, const SweepPlan& plan,
+                     const RunStorage& storage) {
+  Store store(path, sqlite::Database::Mode::create, storage);
+  sqlite::Database& db = store.database;
+  db.execute("BEGIN");
+  db.execute(std::string(run_sql()));
+  store.set_meta("bench", bench.document.dump());
+  store.set_meta("bench_sha256", bench.sha256);
+  store.set_meta("plan", request.document.dump());
+  store.set_meta("plan_sha256", request.sha256);
+  store.set_meta("seed", std::to_string(bench.seed));
+  store.set_meta("simulated", bench.is_simulated ? "true" : "false");
+  auto insert = db.prepare("INSERT INTO step VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  std::int64_t position = 0;
+  for (const PlanStep& s : plan.steps) {
+    insert.bind(s.number).bind(position++).bind(std::string(name(s.kind)));
+    insert.bind(s.pose.theta_i.degrees()).bind(s.pose.phi_i.degrees()).bind(s.pose.theta_o.degrees()).bind(s.pose.phi_o.degrees());
+    insert.bind(json_array(s.axes)).bind(s.exposure_s).bind(std::string(name(s.state))).bind(s.reason).bind(s.rotation_deg);
+    s.partner < 0 ? insert.bind_null() : insert.bind(s.partner);
+    insert.step();
+  }
+  auto calibration = db.prepare("INSERT INTO calibration VALUES (?, ?, ?, ?, ?)");
+  const auto calibrate = [&](const std::string& what, double value, double u, const char* unit, const std::string& source) {
+    calibration.bind(what).bind(value);
+    u > 0 ? calibration.bind(u) : calibration.bind_null();
+    calibration.bind(std::string(unit)).bind(source).step();
+  };
+  const Reference& white = bench.reference;
+  calibrate("reference_f", white.f_per_sr, white.u_relative * white.f_per_sr, "1/sr", "certificate of " + white.name);
+  for (const auto& [component, u] : bench.correlated) calibrate(component, 1, u, "1", "bench file");
+  db.execute("COMMIT");
 }
 
 Run Run::open(const std::filesystem::path& path, bool writable, const RunStorage& storage) {
   if (!std::filesystem::is_regular_file(path)) throw Error(ErrorKind::input, Fault{path.string(), "no such file", "a run file (.gonio)"});
-  // Look before anything is written: a file of another program must stay as it is.
-  {
-    Store probe(path, sqlite::Database::Mode::read, storage);
-    if (const auto id = probe.pragma("application_id"); id != application_id) {
-      throw Error(ErrorKind::input, Fault{path.string(), fmt::format("an SQLite file with application id {}", id), "a run file (.gonio)"});
-    }
-    if (const auto version = probe.pragma("user_version"); version != schema_version) {
-      throw Error(ErrorKind::input,
-                  Fault{path.string(), fmt::format("run schema version {}", version), fmt::format("version {}", schema_version)});
-    }
-  }
+  require_run_file(path);
   return Run(std::make_unique<Store>(path, writable ? sqlite::Database::Mode::write : sqlite::Database::Mode::read, storage));
 }
 

@@ -67,6 +67,8 @@ class Run {
 
  private:
   struct Store;
+  static void write_plan(const std::filesystem::path& path, const Bench& bench, const PlanRequest& request, const SweepPlan& plan,
+                         const RunStorage& storage);
   explicit Run(std::unique_ptr<Store> store);
   std::unique_ptr<Store> store_;
 };

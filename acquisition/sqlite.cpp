@@ -2,6 +2,7 @@
 // SQLite calls with their results checked.
 #include "acquisition/sqlite.hpp"
 
+#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include "brdf/error.hpp"
@@ -12,18 +13,17 @@ void Database::Closer::operator()(sqlite3* database) const noexcept { sqlite3_cl
 void Statement::Finalizer::operator()(sqlite3_stmt* statement) const noexcept { sqlite3_finalize(statement); }
 
 Database::Database(const std::filesystem::path& path, Mode mode, const std::string& vfs) : path_(path.string()) {
-  const int flags = mode == Mode::read    ? SQLITE_OPEN_READONLY
-                    : mode == Mode::write ? SQLITE_OPEN_READWRITE
-                                          : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
+  const int flags = mode == Mode::create ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READWRITE;
   sqlite3* database = nullptr;
   const int code = sqlite3_open_v2(path_.c_str(), &database, flags, vfs.empty() ? nullptr : vfs.c_str());
   database_.reset(database);
   if (code != SQLITE_OK) fail(code);
   sqlite3_extended_result_codes(database, 1);
+  if (mode == Mode::read) execute("PRAGMA query_only = ON");
 }
 
 void Database::fail(int code) const {
-  const std::string found = database_ ? sqlite3_errmsg(database_.get()) : sqlite3_errstr(code);
+  const std::string found = fmt::format("{} (SQLite {})", database_ ? sqlite3_errmsg(database_.get()) : sqlite3_errstr(code), code);
   switch (code & 0xff) {
     case SQLITE_CONSTRAINT: throw Error(ErrorKind::internal, Fault{path_, found, "a row that meets the schema of a run"});
     case SQLITE_BUSY:

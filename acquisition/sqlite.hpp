@@ -15,7 +15,9 @@ namespace gonio::acquisition::sqlite {
 
 class Statement;
 
-/// A connection. Failures are Error(input) naming the file, SQLite's message and what was wanted; a violated constraint is Error(internal).
+/// A connection. Reading, too, opens the file for writing where it may: a writer that was killed leaves a journal that only a writer can
+/// fold back; SQLite itself falls back to reading only where the file is write-protected.
+/// Failures are Error(input) naming the file, SQLite's message and what was wanted; a violated constraint is Error(internal).
 class Database {
  public:
   enum class Mode { read, write, create };

@@ -151,7 +151,6 @@ void Sweep::measure_all() {
 }
 
 void Sweep::measure(const PlanStep& step, Outstanding todo) {
-  source_.open_shutter(false);  // no light while the arms move
   gantry_.move_to(step.axes);
   source_.present(step.kind);
   source_.open_shutter(step.kind != StepKind::dark);

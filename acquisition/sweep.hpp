@@ -30,6 +30,7 @@ struct SweepResult {
 
 /// Measures every ok step of the run that has no accepted reading yet. On any failure: shutter closed, all axes stopped (proved by
 /// status), event recorded, then the Error goes on (device), or Error(interrupted) if `stop` was set.
-SweepResult sweep(Run& run, const SweepPlan& plan, Gantry& gantry, Detector& detector, Source& source, Clock& clock, const SweepOptions& options);
+SweepResult sweep(Run& run, const SweepPlan& plan, Gantry& gantry, Detector& detector, Source& source, Clock& clock,
+                  const SweepOptions& options);
 
 }  // namespace gonio::acquisition

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "acquisition/trapezoidal_motion.hpp"
 #include "brdf/error.hpp"
@@ -83,7 +83,8 @@ void ModbusGantry::sleep_until(BenchTime wake) {
 
 AxisState ModbusGantry::move_to(const AxisAngles& target) {
   const std::vector<std::int64_t> counts = require_within_limits(target);
-  const std::vector<Drive::State> before = states();
+  if (last_.empty()) last_ = states();
+  const std::vector<Drive::State> before = std::exchange(last_, {});
 
   // Command the axes that are not there yet: all targets first, then all starts.
   std::vector<std::size_t> moving;
@@ -101,17 +102,15 @@ AxisState ModbusGantry::move_to(const AxisAngles& target) {
     drives_[k].start();
     commanded_[k] = counts[k];
   }
-  if (moving.empty()) return result(before);
-
   const BenchTime arrival = clock_->now() + bench_time(predicted_s);
   sleep_until(arrival);
-  wait_in_position(counts, arrival + bench_time((late_factor - 1) * predicted_s + late_s));
-  return result(states());
+  last_ = wait_in_position(counts, arrival + bench_time((late_factor - 1) * predicted_s + late_s), moving.empty());
+  return result(last_);
 }
 
-void ModbusGantry::wait_in_position(const std::vector<std::int64_t>& target, BenchTime deadline) {
+std::vector<Drive::State> ModbusGantry::wait_in_position(const std::vector<std::int64_t>& target, BenchTime deadline, bool is_settled) {
   for (;;) {
-    const std::vector<Drive::State> now = states();
+    std::vector<Drive::State> now = states();
     std::vector<Fault> late;
     for (std::size_t k = 0; k < drives_.size(); ++k) {
       if (drives_[k].is_in_position(now[k], target[k])) continue;
@@ -121,21 +120,25 @@ void ModbusGantry::wait_in_position(const std::vector<std::int64_t>& target, Ben
                       fmt::format("{} within {}° and the status bit of arrival", target[k], drives_[k].axis().tolerance_deg)});
     }
     if (late.empty()) {
+      if (is_settled || settle_ == 0) return now;
+      is_settled = true;
       sleep_until(clock_->now() + settle_);
-      const std::vector<Drive::State> settled = states();
-      bool still = true;
-      for (std::size_t k = 0; k < drives_.size(); ++k) still = still && drives_[k].is_in_position(settled[k], target[k]);
-      if (still) return;
+      continue;
     }
+    is_settled = false;
     if (clock_->now() >= deadline) throw Error(ErrorKind::device, "an axis did not come to rest at its target in time", std::move(late));
     sleep_until(clock_->now() + arrival_poll);
   }
 }
 
-AxisState ModbusGantry::read_back() { return result(states()); }
+AxisState ModbusGantry::read_back() {
+  last_ = states();
+  return result(last_);
+}
 
 bool ModbusGantry::stop() noexcept {
   // Every axis is told before any is looked at; one that does not answer must not keep the others from being told.
+  last_.clear();
   bool told = true;
   for (std::size_t k = 0; k < drives_.size(); ++k) {
     try {

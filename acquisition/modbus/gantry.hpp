@@ -27,13 +27,14 @@ class ModbusGantry final : public Gantry {
   std::vector<Drive::State> states();
   AxisState result(const std::vector<Drive::State>& states) const;
   std::vector<std::int64_t> require_within_limits(const AxisAngles& target) const;
-  void wait_in_position(const std::vector<std::int64_t>& target, BenchTime deadline);
+  std::vector<Drive::State> wait_in_position(const std::vector<std::int64_t>& target, BenchTime deadline, bool is_settled);
   void sleep_until(BenchTime wake);
 
   std::shared_ptr<Bus> bus_;
   std::shared_ptr<Clock> clock_;
   std::vector<Drive> drives_;
   std::vector<std::optional<std::int64_t>> commanded_;
+  std::vector<Drive::State> last_;  // read back since the last move ended, or empty
   BenchTime settle_ = 0;
   const std::atomic<bool>* stop_;
 };
