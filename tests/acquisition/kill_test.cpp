@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "acquisition/sweep.hpp"
+#include "tests/acquisition/bench_process.hpp"
 #include "tests/acquisition/test_bench.hpp"
 #include "tests/check.hpp"
 
@@ -27,42 +28,6 @@ Bench noisy_bench() {
   bench.simulated.shot_counts_per_unit = 1e12;
   return bench;
 }
-
-/// The bench in another process, with a virtual clock of its own, until it is told to end.
-class BenchProcess {
- public:
-  explicit BenchProcess(Bench bench) : bench_(std::move(bench)) {
-    int to_child[2], to_parent[2];
-    if (pipe(to_child) != 0 || pipe(to_parent) != 0) FAIL("no pipe");
-    pid_ = fork();
-    if (pid_ == 0) {
-      close(to_child[1]);
-      const simulated::SimulatedBench simulated(bench_, sample(), std::make_shared<VirtualClock>());
-      const auto ports = simulated.ports();
-      char end = 0;
-      if (write(to_parent[1], &ports, sizeof ports) == sizeof ports) (void)!read(to_child[0], &end, 1);
-      _exit(0);
-    }
-    close(to_child[0]);
-    close(to_parent[1]);
-    lifeline_ = to_child[1];
-    simulated::SimulatedBench::Ports ports;
-    if (read(to_parent[0], &ports, sizeof ports) != sizeof ports) FAIL("the bench process did not start");
-    close(to_parent[0]);
-    bench_.modbus.port = ports.modbus;
-    bench_.scpi.port = ports.scpi;
-  }
-  ~BenchProcess() {
-    close(lifeline_);
-    waitpid(pid_, nullptr, 0);
-  }
-  const Bench& bench() const { return bench_; }
-
- private:
-  Bench bench_;
-  pid_t pid_ = -1;
-  int lifeline_ = -1;
-};
 
 /// Starts or resumes the sweep in a new process.
 pid_t start_sweep(const std::filesystem::path& path, const Bench& bench, const SweepPlan& plan) {
