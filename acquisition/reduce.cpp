@@ -144,6 +144,7 @@ class Reduction {
       visits.push_back(visit);
     }
     if (visits.empty()) refuse("readings", "no good reading of the reference", "at least one visit");
+    visit_sensitivity_.resize(visits.size());
     white_.emplace(std::move(visits));
   }
 
@@ -158,9 +159,7 @@ class Reduction {
     const Visits& dark_level = dark(r);
     const double per_watt = bench_.reference.f_per_sr / (white * k);
     const double f = (r.signal - dark_level.at(time)) * bench_.reference.f_per_sr / white / k;
-    const double shared = f / white;
-    const double var_read = per_watt * per_watt * (noise_->variance_without_shot(r.signal) + dark_level.local_variance(time)) +
-                            shared * shared * white_->local_variance(time);
+    const double var_read = per_watt * per_watt * (noise_->variance_without_shot(r.signal) + dark_level.local_variance(time));
     const double variance = var_read + per_watt * per_watt * noise_->shot_variance(r.signal, r.exposure_s);
 
     data.angles.push_back(pose);
@@ -168,6 +167,11 @@ class Reduction {
     data.u[0].push_back(variance > 0 ? std::sqrt(variance) : std::numeric_limits<double>::quiet_NaN());
     // d ln f / d D: the dark is taken from the sample's signal and from the white's. At f = 0 the logarithm has no derivative.
     dark_sensitivity.push_back(f == 0 ? 0 : -per_watt / f + 1 / (white * white_factor_));
+    // d ln f / d ln S_r of each visit: the two that this sample is interpolated between, by their shares.
+    const Visits::Place place = white_->place(time);
+    for (auto& sensitivity : visit_sensitivity_) sensitivity.push_back(0);
+    visit_sensitivity_[place.before].back() -= (1 - place.share) * white_->all()[place.before].value / white;
+    visit_sensitivity_[place.after].back() -= place.share * white_->all()[place.after].value / white;
     const auto column = [&](const char* name, double value) { data.extra[name].push_back(value); };
     column("var_read", var_read);
     column("time_s", time);
@@ -189,7 +193,8 @@ class Reduction {
     double mean = 0;
     for (const Visit& visit : white.all()) mean += visit.value / static_cast<double>(white.all().size());
     add("certificate", bench_.reference.u_relative);
-    add("reference_noise", std::sqrt(white.common_variance()) / mean);
+    for (std::size_t k = 0; k < white.all().size(); ++k)
+      add(fmt::format("reference_noise_{}", k + 1), std::sqrt(white.all()[k].variance) / white.all()[k].value, visit_sensitivity_[k]);
     double dark_variance = 0;
     for (const auto& [setting, level] : darks_) dark_variance = std::max(dark_variance, level.common_variance());
     add("dark_noise", std::sqrt(dark_variance), std::move(dark_sensitivity));
@@ -228,8 +233,9 @@ class Reduction {
   std::unique_ptr<NoiseModel> noise_;
   std::map<std::int64_t, StepReadings> readings_;
   std::map<Setting, Visits> darks_;
-  std::optional<Visits> white_;  // found in the constructor
-  double white_factor_ = 1;      // K of the reference's pose
+  std::optional<Visits> white_;                         // found in the constructor
+  double white_factor_ = 1;                             // K of the reference's pose
+  std::vector<std::vector<double>> visit_sensitivity_;  // [visit][sample]
 };
 
 }  // namespace

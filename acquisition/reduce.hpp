@@ -16,8 +16,10 @@ namespace gonio::acquisition {
 /// the repeats of a visit). Samples stand at the read-back pose; the commanded one is kept beside it. The last good attempt counts.
 ///
 /// u (independent): noise of this reading by the bench's stated noise model, or by one estimated from repeated readings (meter_noise.hpp),
-/// and what its own two dark and reference visits scatter beyond the mean of all visits. NaN where no noise is known. Named components
-/// (shared): `certificate`; `reference_noise` and `dark_noise`, of the mean over all visits; `drift`, where the course between visits is
+/// and what its own two dark visits scatter beyond the mean of all dark visits. NaN where no noise is known. Named components
+/// (shared): `certificate`; `reference_noise_1`, `_2`, ... of each visit to the white, with the share of it that a sample takes as
+/// sensitivity (samples between the same two visits err together: a check of isotropy would see that as a difference of azimuths);
+/// `dark_noise`, of the mean over all visits; `drift`, where the course between visits is
 /// not straight; and those the bench file states. `dark_noise` is in W and has a sensitivity per sample. Column `var_read` [1/sr²] is u²
 /// without the shot noise of the sample's own reading, which alone depends on f: what is needed to weight a fit by its model instead of by
 /// noisy values. Further columns: time_s, step, range_w, exposure_s, rotation_deg, commanded_*_deg. Masked steps count as `blocked`, steps

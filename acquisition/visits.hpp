@@ -29,13 +29,14 @@ class Visits {
   double straightness() const;
   const std::vector<Visit>& all() const { return visits_; }
 
- private:
+  /// The visits a time lies between, and the share of the later one.
   struct Place {
     std::size_t before, after;
-    double share;  // of `after`
+    double share;
   };
   Place place(double time_s) const;
 
+ private:
   std::vector<Visit> visits_;
 };
 

@@ -3,6 +3,8 @@
 #include "acquisition/reduce.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -25,6 +27,21 @@ tabulated::Opened reduced_run(const std::filesystem::path& path) {
   out.dataset = dataset;
   return out;
 }
+
+namespace {
+
+/// A shared component with what it does to a sample: the median over samples where that differs.
+std::string component_line(const CorrelatedComponent& component) {
+  if (component.sensitivity.empty()) return fmt::format("  shared by all samples: {} {:.3g} %", component.name, 100 * component.u);
+  std::vector<double> effects;
+  for (const double c : component.sensitivity) effects.push_back(std::fabs(c * component.u));
+  std::nth_element(effects.begin(), effects.begin() + static_cast<std::ptrdiff_t>(effects.size() / 2), effects.end());
+  const double largest = *std::max_element(effects.begin(), effects.end());
+  return fmt::format("  shared by samples: {} {:.2g} % (median), {:.2g} % (most)", component.name, 100 * effects[effects.size() / 2],
+                     100 * largest);
+}
+
+}  // namespace
 
 int reduce_verb(const Arguments& arguments, Console& console) {
   CLI::App app(
@@ -53,8 +70,7 @@ int reduce_verb(const Arguments& arguments, Console& console) {
     return 0;
   }
   console.print(fmt::format("{} -> {}: {} samples", in, out, reduced.dataset->size()));
-  for (const auto& component : reduced.dataset->correlated)
-    console.print(fmt::format("  shared by all samples: {} {:.3g} %", component.name, 100 * component.u));
+  for (const auto& component : reduced.dataset->correlated) console.print(component_line(component));
   return 0;
 }
 

@@ -213,8 +213,16 @@ TEST_CASE("shared uncertainties are named components") {
   CHECK(component(data, "certificate")->u == 0.004);
   CHECK(component(data, "certificate")->sensitivity.empty());
   REQUIRE(component(data, "stray_light"));
-  REQUIRE(component(data, "reference_noise"));
-  CHECK(component(data, "reference_noise")->u < 0.001);
+  REQUIRE(component(data, "reference_noise_1"));
+  REQUIRE(component(data, "reference_noise_2"));
+  CHECK(component(data, "reference_noise_1")->u < 0.001);
+  // A sample takes its white from the visits around it: a white that reads 1 % more everywhere makes f 1 % less.
+  for (std::size_t k = 0; k < data.size(); ++k) {
+    double sum = 0;
+    for (const CorrelatedComponent& c : data.correlated)
+      if (c.name.starts_with("reference_noise_")) sum += c.sensitivity[k];
+    CHECK(sum == Approx(-1).epsilon(1e-12));
+  }
   REQUIRE(component(data, "dark_noise"));
   REQUIRE(component(data, "dark_noise")->sensitivity.size() == data.size());
   CHECK(component(reduce(acquisition::test::ideal_bench(), instrument(acquisition::test::ideal_bench()).plan.steps,
