@@ -59,7 +59,7 @@ TEST_CASE("the demo bench says what its file says") {
   CHECK(bench.axes[1].speed_deg_per_s == 15);
   CHECK(bench.axes[1].profile.name == "cia402");
   CHECK(bench.reference.pose.theta_o.degrees() == 45);
-  CHECK(bench.reference.readings == 20);
+  CHECK(bench.reference.readings == 40);
   CHECK(bench.dark_readings == 20);
   REQUIRE(bench.noise.has_value());
   CHECK(bench.noise->read_w == 1.5e-10);
