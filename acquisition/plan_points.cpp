@@ -27,7 +27,7 @@ std::int64_t turned_back(std::int64_t angle) {
 Key key_of(double theta_i, double phi_i, double theta_o, double phi_o) {
   const auto whole = [](double angle) { return std::llround(angle * microdegrees); };
   Key key{turned_back(whole(theta_i)), whole(phi_i), turned_back(whole(theta_o)), whole(phi_o)};
-  for (const std::size_t theta : {0, 2})
+  for (const std::size_t theta : {0u, 2u})
     if (key[theta] < 0) key[theta] = -key[theta], key[theta + 1] += whole(180);
   // At normal exit every azimuth is the same direction; that of the light keeps phi_o - phi_i for comparisons across rotations.
   if (key[2] == 0) key[3] = key[1];

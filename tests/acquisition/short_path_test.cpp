@@ -43,7 +43,7 @@ Plane random_plane(std::size_t n, std::mt19937_64& random) {
 
 TEST_CASE("every point is visited once") {
   std::mt19937_64 random(seed);
-  for (const std::size_t n : {0, 1, 2, 3, 7, 150}) {
+  for (const std::size_t n : {0u, 1u, 2u, 3u, 7u, 150u}) {
     std::vector<std::size_t> path = random_plane(n, random).path(), all(n);
     std::iota(all.begin(), all.end(), std::size_t{0});
     std::sort(path.begin(), path.end());
