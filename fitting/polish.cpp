@@ -94,6 +94,7 @@ Polished polish(const Terms& terms, const std::vector<std::vector<double>>& star
   options.parameter_tolerance = 1e-12;
   options.gradient_tolerance = 1e-16;
   options.logging_type = ceres::SILENT;
+  FLAGS_minloglevel = google::GLOG_FATAL;  // a library does not print; what Ceres has to say stands in the summary
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   double constants = 0;

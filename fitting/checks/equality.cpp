@@ -113,8 +113,8 @@ EqualityTest test_equality(const std::vector<EqualGroup>& groups, double margin,
   const Eigen::LDLT<Matrix> solver(gg);
   const Vector amplitude = components > 0 ? Vector(solver.solve(gr)) : Vector();
   test.chi2 = rr - (components > 0 ? gr.dot(amplitude) : 0);
-  double p = chi2_upper_tail(test.chi2, test.dof), tests = 1;
-  double directed_amplitude = 0, directed_u = 0;
+  const double p_chi2 = chi2_upper_tail(test.chi2, test.dof);
+  double tests = 1, largest_z = 0, directed_amplitude = 0, directed_u = 0;
   for (Eigen::Index k = 0; k < patterns; ++k) {
     double numerator = pr[k], information = pp[k];
     if (components > 0) {
@@ -124,15 +124,16 @@ EqualityTest test_equality(const std::vector<EqualGroup>& groups, double margin,
     }
     if (!(information > 1e-9 * pp[k]) || !(pp[k] > 0)) continue;
     tests += 1;
-    const double p_directed = 2 * normal_upper_tail(std::abs(numerator) / std::sqrt(information));
-    if (p_directed < p) {
-      p = p_directed;
-      test.strongest = static_cast<int>(k);
-      directed_amplitude = std::abs(numerator) / information * std::sqrt(pattern2[k] / mean2);
-      directed_u = std::sqrt(pattern2[k] / mean2 / information);
-    }
+    const double z = std::abs(numerator) / std::sqrt(information);
+    if (z <= largest_z) continue;
+    largest_z = z;
+    test.strongest = static_cast<int>(k);
+    directed_amplitude = std::abs(numerator) / information * std::sqrt(pattern2[k] / mean2);
+    directed_u = std::sqrt(pattern2[k] / mean2 / information);
   }
-  test.p_value = std::min(1.0, p * tests);
+  const double p_directed = 2 * normal_upper_tail(largest_z);
+  test.p_value = std::min(1.0, tests * std::min(p_chi2, p_directed));
+  if (p_directed * tests >= alpha) test.strongest = -1;
 
   // τ² by moments: E s² = v + τ² m² in every group.
   double weighted = 0, total = 0;
@@ -162,7 +163,7 @@ EqualityTest test_equality(const std::vector<EqualGroup>& groups, double margin,
   test.effect_upper = factor * std::sqrt(std::max(0.0, tau2 + normal_upper_quantile(alpha) * u_tau2));
   test.u_effect =
       test.effect > 0 ? std::min(factor * std::sqrt(u_tau2), factor * factor * u_tau2 / (2 * test.effect)) : factor * std::sqrt(u_tau2);
-  if (test.strongest >= 0 && test.p_value < alpha) {
+  if (test.strongest >= 0 && p_directed < p_chi2) {
     test.effect = factor * directed_amplitude;
     test.u_effect = factor * directed_u;
   }

@@ -23,13 +23,14 @@ struct EqualityTest {
   bool has_uncertainty = false;
   double dof = 0, chi2 = 0, p_value = 1;
   double effect = 0, u_effect = 0, effect_upper = 0;  ///< relative; without uncertainty `effect` contains the noise
-  int strongest = -1;                                 ///< pattern of the directed test that gave the p-value, -1: χ²
+  int strongest = -1;  ///< the pattern with the largest amplitude in standard uncertainties if it is significant, else -1
 };
 
 /// Members of a group are equal but for their noise and the shared components. Generalised least squares: group means are free,
 /// shared components have a unit-normal prior, so that a common scale or a tilt of known uncertainty is no asymmetry.
 /// p-value: the smallest of χ² and the directed one-degree-of-freedom tests, times their number (Bonferroni).
-/// Effect: τ of variance u² + τ² f² between members (moments, weighted towards precise groups), times `factor`.
+/// Effect: τ of variance u² + τ² f² between members (moments, weighted towards precise groups), times `factor`; the amplitude of the
+/// pattern where a directed test saw what χ² did not.
 /// Groups with an unknown u are left out if any group has them all known.
 EqualityTest test_equality(const std::vector<EqualGroup>& groups, double margin, double alpha, double factor);
 

@@ -132,8 +132,7 @@ Check check_isotropy(const CheckSubject& subject, const CheckOptions& options) {
   check.detail = fmt::format("{} poses: variation between azimuths beyond noise {:.2g} % ± {:.2g} %, Q/dof {:.3g}", test.groups,
                              100 * test.effect, 100 * test.u_effect, test.chi2 / test.dof);
   if (check.verdict == Verdict::vacuous) check.detail += fmt::format("; the data cannot tell within {:.2g} %", 100 * options.margin);
-  if (*check.p_value < options.alpha && test.strongest >= 0)
-    check.detail += fmt::format("; it varies {}", pattern_names[static_cast<std::size_t>(test.strongest)]);
+  if (test.strongest >= 0) check.detail += fmt::format("; it varies {}", pattern_names[static_cast<std::size_t>(test.strongest)]);
   return check;
 }
 

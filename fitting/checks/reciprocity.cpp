@@ -100,7 +100,7 @@ Check check_reciprocity(const CheckSubject& subject, const CheckOptions& options
   check.detail = fmt::format("{} partner pairs{}: difference beyond noise {:.2g} % ± {:.2g} %, chi²/n {:.3g}", test.groups, assumption,
                              100 * test.effect, 100 * test.u_effect, test.chi2 / test.dof);
   if (check.verdict == Verdict::vacuous) check.detail += fmt::format("; the data cannot tell within {:.2g} %", 100 * options.margin);
-  if (*check.p_value < options.alpha && test.strongest >= 0)
+  if (test.strongest >= 0)
     check.detail += fmt::format("; it goes with {}: look for tilt, spot, field or drift first",
                                 pattern_names[static_cast<std::size_t>(test.strongest)]);
   return check;
