@@ -18,10 +18,12 @@ class BenchProcess {
     pid_ = fork();
     if (pid_ == 0) {
       close(to_child[1]);
-      const simulated::SimulatedBench simulated(bench_, sample(), std::make_shared<VirtualClock>());
-      const auto ports = simulated.ports();
-      char end = 0;
-      if (write(to_parent[1], &ports, sizeof ports) == sizeof ports) (void)!read(to_child[0], &end, 1);
+      {
+        const simulated::SimulatedBench simulated(bench_, sample(), std::make_shared<VirtualClock>());
+        const auto ports = simulated.ports();
+        char end = 0;
+        if (write(to_parent[1], &ports, sizeof ports) == sizeof ports) (void)!read(to_child[0], &end, 1);
+      }
       _exit(0);
     }
     close(to_child[0]);

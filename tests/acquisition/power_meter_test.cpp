@@ -4,6 +4,7 @@
 
 #include <sys/socket.h>
 
+#include <mutex>
 #include <random>
 
 #include "acquisition/scpi_power_meter.hpp"
@@ -146,8 +147,14 @@ TEST_CASE("Two queries in one packet interrupt the first") {
 }
 
 TEST_CASE("A driver takes no number from a meter that misbehaves") {
+  std::mutex mutex;  // the meter answers on a thread of its own
   std::string wavelength = "550", fetched = "1e-6", errors = "0,\"No error\"\n";
+  const auto set = [&](std::string& text, const std::string& value) {
+    const std::lock_guard lock(mutex);
+    text = value;
+  };
   const ScriptedMeter scripted([&](const std::string& line) -> std::string {
+    const std::lock_guard lock(mutex);
     if (line == "*IDN?") return "SCRIPTED\n";
     if (line == "SYST:ERR?") return errors;
     if (line == "SENS:CORR:WAV?") return wavelength + "\n";
@@ -160,16 +167,16 @@ TEST_CASE("A driver takes no number from a meter that misbehaves") {
   meter.configure(550, 1e-3, 0.1);
   CHECK(meter.read(0.1) == 1e-6);
   for (const char* garbage : {"nan", "", "1e-6x", "-", "9.9E37", "9.91E37", "1,2"}) {
-    fetched = garbage;
+    set(fetched, garbage);
     CAPTURE(garbage);
     what([&] { meter.read(0.1); });
   }
-  fetched = "2e-6";
+  set(fetched, "2e-6");
   CHECK(meter.read(0.1) == 2e-6);  // the connection was opened and configured anew
-  wavelength = "551";
+  set(wavelength, "551");
   CHECK(what([&] { meter.configure(550, 1e-3, 0.1); }).find("551") != std::string::npos);
-  wavelength = "550";
-  errors = "-222,\"Data out of range\"\n";
+  set(wavelength, "550");
+  set(errors, "-222,\"Data out of range\"\n");
   CHECK(what([&] { meter.configure(550, 1e-3, 0.1); }).find("-222") != std::string::npos);
 }
 
