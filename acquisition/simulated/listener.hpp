@@ -28,6 +28,7 @@ class Listener {
 
  private:
   struct Connection {
+    explicit Connection(int accepted) : socket(accepted) {}
     int socket;
     bool done = false;
     std::thread thread;

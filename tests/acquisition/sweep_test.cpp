@@ -59,7 +59,7 @@ TEST_CASE("The same seed gives the same file, another seed another") {
   bench.simulated.drift_per_hour = 0.01;
   const SweepPlan plan = small_plan(bench, 30);
   std::vector<std::string> hashes;
-  for (const std::uint64_t seed : {7, 7, 8}) {
+  for (const std::uint64_t seed : {7u, 7u, 8u}) {
     bench.seed = seed;
     const auto path = folder / ("run" + std::to_string(hashes.size()) + ".gonio");
     {
