@@ -104,6 +104,10 @@ void SimulatedBench::Server::answer(modbus_t* connection, const std::uint8_t* fr
   if (found == units.end()) return refuse(MODBUS_EXCEPTION_GATEWAY_TARGET);
   RegisterUnit& unit = *found->second;
   if (!request.is_read() && !request.is_write()) return refuse(MODBUS_EXCEPTION_ILLEGAL_FUNCTION);
+  // Checked here although libmodbus would: it waits for half a second before it refuses a count.
+  if (request.count < 1 || request.count > (request.is_read() ? MODBUS_MAX_READ_REGISTERS : MODBUS_MAX_WRITE_REGISTERS)) {
+    return refuse(MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE);
+  }
   if (request.is_write()) {
     for (int k = 0; k < request.count; ++k) {
       if (!unit.is_writable(request.address + k)) return refuse(MODBUS_EXCEPTION_ILLEGAL_DATA_ADDRESS);
@@ -120,10 +124,7 @@ void SimulatedBench::Server::answer(modbus_t* connection, const std::uint8_t* fr
     return;
   }
   // The device acts before its answer leaves, so that whoever got the answer finds the command done.
-  if (request.function == write_multiple &&
-      (request.count < 1 || request.count > MODBUS_MAX_WRITE_REGISTERS || length < 13 + 2 * request.count)) {
-    return refuse(MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE);
-  }
+  if (request.function == write_multiple && length < 13 + 2 * request.count) return refuse(MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE);
   const std::uint8_t* values = frame + (request.function == write_single ? 10 : 13);
   for (int k = 0; k < request.count; ++k) {
     unit.registers()[static_cast<std::size_t>(request.address + k - unit.first())] =
