@@ -7,9 +7,10 @@
 #include "acquisition/modbus/registers.hpp"
 #include "tests/acquisition/bench_process.hpp"
 #include "tests/acquisition/test_bench.hpp"
-#include "tests/check.hpp"
 #include "tests/contract/device_contract.hpp"
 #include "tests/contract/modbus_proxy.hpp"
+
+#include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::acquisition;
