@@ -57,6 +57,13 @@ class DatasetObservations final : public Observations {
 
 }  // namespace
 
+void Observations::geometry_of(std::size_t index, std::span<const std::size_t> samples, std::vector<LobeGeometry>& out) const {
+  std::vector<LobeGeometry> all;
+  geometry(index, all);
+  out.clear();
+  for (const std::size_t sample : samples) out.push_back(all[sample]);
+}
+
 std::unique_ptr<Observations> observe(std::shared_ptr<const Dataset> dataset) {
   return std::make_unique<DatasetObservations>(std::move(dataset));
 }

@@ -73,6 +73,9 @@ class Observations {
   virtual ObservationBlock block(std::size_t index) const = 0;
   /// The geometry of every sample of a block; `out` is resized. Costs time: ask only if the model needs it.
   virtual void geometry(std::size_t index, std::vector<LobeGeometry>& out) const = 0;
+  /// The geometry of some samples of a block, by their numbers in it; `out` is resized. A table overrides this where a few samples cost
+  /// less than all of them.
+  virtual void geometry_of(std::size_t index, std::span<const std::size_t> samples, std::vector<LobeGeometry>& out) const;
   /// The angles of every sample of a block; `out` is resized.
   virtual void angles(std::size_t index, std::vector<GonioAngles>& out) const = 0;
   /// Components of uncertainty shared by all samples.

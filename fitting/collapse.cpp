@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fitting/collapse.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <limits>
 
@@ -28,25 +30,24 @@ class CentredSum {
 
 constexpr std::size_t lanes = 8;
 
-/// Two passes in `lanes` independent sums: the mean, then squares about the mean.
+/// Two passes in `lanes` independent sums: the mean, then squares about the mean. `f` is 0 where `valid` is.
 BlockSums plain_sums(const double* f, const double* valid, std::size_t size, double scale) {
   std::array<double, lanes> count{}, sum{}, square{}, rest{};
   const std::size_t whole = size / lanes * lanes;
-  const auto pick = [&](std::size_t k) { return valid[k] != 0 ? f[k] : 0.0; };
   for (std::size_t k = 0; k < whole; k += lanes)
     for (std::size_t l = 0; l < lanes; ++l) {
       count[l] += valid[k + l];
-      sum[l] += pick(k + l);
+      sum[l] += f[k + l];
     }
   for (std::size_t k = whole; k < size; ++k) {
     count[0] += valid[k];
-    sum[0] += pick(k);
+    sum[0] += f[k];
   }
   double n = 0, total = 0;
   for (std::size_t l = 0; l < lanes; ++l) n += count[l], total += sum[l];
   if (!(n > 0)) return {};
   const double mean = total / n;
-  const auto from_mean = [&](std::size_t k) { return valid[k] != 0 ? f[k] - mean : 0.0; };
+  const auto from_mean = [&](std::size_t k) { return (f[k] - mean) * valid[k]; };
   for (std::size_t k = 0; k < whole; k += lanes)
     for (std::size_t l = 0; l < lanes; ++l) {
       const double d = from_mean(k + l);
@@ -70,32 +71,52 @@ bool plain(const ObservationBlock& block) {
   return true;
 }
 
+/// Two sums about their own means as one (Chan, Golub and LeVeque 1979).
+void merge(BlockSums& all, const BlockSums& part) {
+  if (part.count == 0) return;
+  const double weight = all.weight + part.weight, apart = part.mean - all.mean;
+  all.within += part.within + apart * apart * all.weight * part.weight / weight;
+  all.mean += apart * part.weight / weight;
+  all.weight = weight;
+  all.count += part.count;
+}
+
+/// A stretch of the block at a time, which stays in the first-level cache; copied there, because a mapped file need not be aligned.
 CollapsedBlock collapse_plain(const ObservationBlock& block) {
-  const std::size_t size = block.size, channels = block.f.size();
+  constexpr std::size_t stretch = 512;
+  const std::size_t channels = block.f.size();
   const bool drop_negative = block.validity == ObservationBlock::Validity::no_channel_negative;
-  std::vector<double> sample_valid(size, 1.0), valid(size);
-  // A mapped file need not be aligned: each column is copied into the cache once.
-  std::vector<std::vector<double>> columns(channels, std::vector<double>(size));
-  for (std::size_t c = 0; c < channels; ++c) std::memcpy(columns[c].data(), block.f[c].data, size * sizeof(double));
-  if (drop_negative)
-    for (const std::vector<double>& f : columns)
-      for (std::size_t k = 0; k < size; ++k) sample_valid[k] = f[k] < 0 ? 0.0 : sample_valid[k];
+  std::vector<std::array<double, stretch>> columns(channels);
+  std::array<double, stretch> sample_valid, valid, most, least;
   CollapsedBlock out;
-  std::vector<double> most(size, 0.0), least(size, 1.0);
-  for (std::size_t c = 0; c < channels; ++c) {
-    const std::vector<double>& f = columns[c];
-    // NaN is the only value that differs from itself; an infinite value is no measurement either.
-    for (std::size_t k = 0; k < size; ++k) valid[k] = std::abs(f[k]) <= std::numeric_limits<double>::max() ? sample_valid[k] : 0.0;
-    for (std::size_t k = 0; k < size; ++k) {
-      most[k] = valid[k] > most[k] ? valid[k] : most[k];
-      least[k] = valid[k] < least[k] ? valid[k] : least[k];
+  out.channel.resize(channels);
+  for (std::size_t begin = 0; begin < block.size; begin += stretch) {
+    const std::size_t size = std::min(stretch, block.size - begin);
+    sample_valid.fill(1);
+    most.fill(0);
+    least.fill(1);
+    for (std::size_t c = 0; c < channels; ++c) {
+      std::array<double, stretch>& f = columns[c];
+      std::memcpy(f.data(), static_cast<const std::byte*>(block.f[c].data) + begin * sizeof(double), size * sizeof(double));
+      if (drop_negative)
+        for (std::size_t k = 0; k < size; ++k) sample_valid[k] = f[k] < 0 ? 0.0 : sample_valid[k];
     }
-    out.channel.push_back(plain_sums(f.data(), valid.data(), size, block.f[c].scale));
+    for (std::size_t c = 0; c < channels; ++c) {
+      std::array<double, stretch>& f = columns[c];
+      // The comparison is false for NaN and for infinity, which are no measurements either.
+      for (std::size_t k = 0; k < size; ++k) valid[k] = std::abs(f[k]) <= std::numeric_limits<double>::max() ? sample_valid[k] : 0.0;
+      for (std::size_t k = 0; k < size; ++k) f[k] = valid[k] > 0 ? f[k] : 0.0;
+      for (std::size_t k = 0; k < size; ++k) {
+        most[k] = valid[k] > most[k] ? valid[k] : most[k];
+        least[k] = valid[k] < least[k] ? valid[k] : least[k];
+      }
+      merge(out.channel[c], plain_sums(f.data(), valid.data(), size, block.f[c].scale));
+    }
+    double used = 0, whole = 0;
+    for (std::size_t k = 0; k < size; ++k) used += most[k], whole += least[k];
+    out.used += static_cast<std::size_t>(used);
+    out.masked += size - static_cast<std::size_t>(whole);
   }
-  double used = 0, whole = 0;
-  for (std::size_t k = 0; k < size; ++k) used += most[k], whole += least[k];
-  out.used = static_cast<std::size_t>(used);
-  out.masked = size - static_cast<std::size_t>(whole);
   return out;
 }
 

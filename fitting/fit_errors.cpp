@@ -11,6 +11,7 @@ namespace gonio::fitting {
 namespace {
 
 constexpr std::size_t exact_up_to = std::size_t{1} << 18;
+constexpr std::size_t estimated_from = std::size_t{1} << 15;
 constexpr std::array metrics{Metric::linear, Metric::linear_cos, Metric::log, Metric::log1p, Metric::cbrt};
 
 struct Sums {
@@ -20,11 +21,11 @@ struct Sums {
 Sums block_sums(const Observations& observations, std::size_t index, std::size_t stride, const ModelKernel& kernel,
                 const std::vector<std::vector<double>>& values) {
   const ObservationBlock block = observations.block(index);
-  std::vector<LobeGeometry> all, geometry;
-  observations.geometry(index, all);
+  std::vector<LobeGeometry> geometry;
   std::vector<std::size_t> samples;
   for (std::size_t k = index % stride; k < block.size; k += stride)
-    if (block.valid(k) && all[k].cos_i >= 0 && all[k].cos_o >= 0) samples.push_back(k), geometry.push_back(all[k]);
+    if (block.valid(k)) samples.push_back(k);
+  observations.geometry_of(index, samples, geometry);
   std::vector<double> columns(kernel.linear * geometry.size());
   Sums sums;
   for (std::size_t c = 0; c < values.size(); ++c) {
@@ -32,7 +33,7 @@ Sums block_sums(const Observations& observations, std::size_t index, std::size_t
       kernel.basis(geometry, values[c].back(), columns.data(), geometry.size());
     for (std::size_t j = 0; j < samples.size(); ++j) {
       const double f = block.f[c][samples[j]], cos_i = geometry[j].cos_i;
-      if (!std::isfinite(f)) continue;
+      if (!std::isfinite(f) || cos_i < 0 || geometry[j].cos_o < 0) continue;
       double fitted = 0;
       for (std::size_t k = 0; k < kernel.linear; ++k) fitted += values[c][k] * columns[k * geometry.size() + j];
       for (std::size_t m = 0; m < metrics.size(); ++m) {
@@ -55,7 +56,7 @@ FitErrors fit_errors(const Observations& observations, const ModelKernel& kernel
   const std::size_t blocks = observations.block_count();
   std::size_t samples = 0;
   for (std::size_t b = 0; b < blocks; ++b) samples += observations.block(b).size;
-  const std::size_t stride = samples <= exact_up_to ? 1 : (samples + exact_up_to - 1) / exact_up_to;
+  const std::size_t stride = samples <= exact_up_to ? 1 : (samples + estimated_from - 1) / estimated_from;
   std::vector<Sums> parts(blocks);
   for_each_index(blocks, threads, [&](std::size_t b) { parts[b] = block_sums(observations, b, stride, kernel, values); });
   Sums total;

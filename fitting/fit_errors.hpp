@@ -7,9 +7,9 @@
 
 namespace gonio::fitting {
 
-/// Unweighted, over all channels together and every sample for which the metric is defined. Beyond 2^18 samples from an even stride
-/// through every block, which keeps the cost of a whole table at a few milliseconds and the error of an rms below a percent.
-/// `chi2_per_dof` is left alone.
+/// Unweighted, over all channels together and every sample for which the metric is defined. Beyond 2^18 samples estimated from 2^15 of
+/// them, an even stride through every block, which keeps the cost of a whole table at a few milliseconds and the error of an rms below a
+/// percent. `chi2_per_dof` is left alone.
 FitErrors fit_errors(const Observations& observations, const ModelKernel& kernel, const std::vector<std::vector<double>>& values,
                      int threads);
 

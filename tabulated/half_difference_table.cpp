@@ -53,11 +53,12 @@ class MerlObservations final : public Observations {
 
   void geometry(std::size_t row, std::vector<LobeGeometry>& out) const override {
     out.resize(MerlGrid::row_count);
-    for (std::size_t k = 0; k < out.size(); ++k) {
-      const DirectionPair pair = pair_of(row, k);
-      out[k] = lobe_geometry(pair.wi, pair.wo);
-      out[k].log_cos_h = log_cos_h(row);
-    }
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = geometry_at(row, k);
+  }
+
+  void geometry_of(std::size_t row, std::span<const std::size_t> samples, std::vector<LobeGeometry>& out) const override {
+    out.resize(samples.size());
+    for (std::size_t j = 0; j < samples.size(); ++j) out[j] = geometry_at(row, samples[j]);
   }
 
   void angles(std::size_t row, std::vector<GonioAngles>& out) const override {
@@ -69,6 +70,13 @@ class MerlObservations final : public Observations {
   }
 
  private:
+  LobeGeometry geometry_at(std::size_t row, std::size_t k) const {
+    const DirectionPair pair = pair_of(row, k);
+    LobeGeometry geometry = lobe_geometry(pair.wi, pair.wo);
+    geometry.log_cos_h = log_cos_h(row);
+    return geometry;
+  }
+
   DirectionPair pair_of(std::size_t row, std::size_t k) const {
     return directions(MerlGrid::node(MerlGrid::cell(row * MerlGrid::row_count + k), nodes_));
   }
