@@ -19,6 +19,7 @@
 #include "tabulated/brdf_exr.hpp"
 #include "tabulated/brdf_exr_channels.hpp"
 #include "tabulated/describe.hpp"
+#include "tabulated/direction_table.hpp"
 #include "tabulated/fault_list.hpp"
 #include "tabulated/metadata.hpp"
 
@@ -242,6 +243,7 @@ Opened open_brdf_exr(const std::filesystem::path& path, const ReadOptions&) {
   out.format = "brdf-exr";
   out.dataset = dataset;
   out.observations = observe(dataset);
+  out.brdf = std::make_shared<const DirectionTable>(dataset);
   out.info = {{"table", fmt::format("{} incident x {} outgoing directions, {} of {} cells empty", table.incident.size(),
                                     table.outgoing.size(), table.cell_count() - dataset->size(), table.cell_count())}};
   const Description description = describe(*dataset);

@@ -15,6 +15,7 @@
 #include "tabulated/csv.hpp"
 #include "tabulated/csv_table.hpp"
 #include "tabulated/describe.hpp"
+#include "tabulated/direction_table.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -228,6 +229,7 @@ Opened open_csv(const std::filesystem::path& path, const ReadOptions& options) {
   out.format = "csv";
   out.dataset = dataset;
   out.observations = observe(dataset);
+  out.brdf = std::make_shared<const DirectionTable>(dataset);
   out.info = describe(*dataset);
   out.masked = dataset->masked;
   out.simulated = dataset->simulated;
