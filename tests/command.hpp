@@ -19,7 +19,7 @@ struct Outcome {
 };
 
 /// `gonio ARGUMENTS` by the shell, standard input from `in`.
-inline Outcome gonio(const std::string& arguments, const std::string& in = "") {
+inline Outcome run_gonio(const std::string& arguments, const std::string& in = "") {
   const Folder folder;
   write_file(folder / "in", in);
   const auto quoted = [&](const char* name) { return " '" + (folder / name).string() + "'"; };

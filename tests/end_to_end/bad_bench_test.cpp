@@ -13,7 +13,7 @@
 #include "tests/check.hpp"
 
 using namespace gonio;
-using test::gonio;
+using test::run_gonio;
 
 namespace {
 
@@ -56,7 +56,8 @@ struct Files {
 TEST_CASE("a bench that refuses the connection exits 5 and names the port") {
   const Files files;
   const Port nobody(false);
-  const auto outcome = gonio(files.sweep() + fmt::format("--modbus 127.0.0.1:{} --scpi 127.0.0.1:{}", nobody.number(), nobody.number()));
+  const auto outcome =
+      run_gonio(files.sweep() + fmt::format("--modbus 127.0.0.1:{} --scpi 127.0.0.1:{}", nobody.number(), nobody.number()));
   INFO(outcome.err);
   CHECK(outcome.code == 5);
   CHECK(outcome.err.find(std::to_string(nobody.number())) != std::string::npos);
@@ -65,7 +66,8 @@ TEST_CASE("a bench that refuses the connection exits 5 and names the port") {
 TEST_CASE("a bench that does not answer exits 5 after its time-out") {
   const Files files;
   const Port silent(true);
-  const auto outcome = gonio(files.sweep() + fmt::format("--modbus 127.0.0.1:{} --scpi 127.0.0.1:{}", silent.number(), silent.number()));
+  const auto outcome =
+      run_gonio(files.sweep() + fmt::format("--modbus 127.0.0.1:{} --scpi 127.0.0.1:{}", silent.number(), silent.number()));
   INFO(outcome.err);
   CHECK(outcome.code == 5);
   CHECK(outcome.err.find(std::to_string(silent.number())) != std::string::npos);
@@ -80,7 +82,7 @@ TEST_CASE("a port in use exits 5 and names it") {
   connections.set("modbus", modbus);
   bench.set("connections", connections);
   test::write_file(files.folder / "bench.json", bench.dump());
-  const auto outcome = gonio("serve " + files.path("bench.json"));
+  const auto outcome = run_gonio("serve " + files.path("bench.json"));
   INFO(outcome.err);
   CHECK(outcome.code == 5);
   CHECK(outcome.out.empty());
@@ -102,14 +104,14 @@ TEST_CASE("a plan with unreachable points exits 4 naming them, before anything m
   bench.set("axes", axes);
   test::write_file(files.folder / "bench.json", bench.dump());
   for (const std::string& verb : {files.sweep(), "plan " + files.path("plan.json") + " --bench " + files.path("bench.json")}) {
-    const auto outcome = gonio(verb);
+    const auto outcome = run_gonio(verb);
     INFO(outcome.err);
     CHECK(outcome.code == 4);
     CHECK(outcome.err.find("light") != std::string::npos);
     CHECK(outcome.err.find("40") != std::string::npos);
   }
   CHECK_FALSE(std::filesystem::exists(files.folder / "run.gonio"));
-  CHECK(gonio("plan " + files.path("plan.json") + " --bench " + files.path("bench.json") + " --skip-unreachable").code == 0);
+  CHECK(run_gonio("plan " + files.path("plan.json") + " --bench " + files.path("bench.json") + " --skip-unreachable").code == 0);
 }
 
 TEST_CASE("a schema fault exits 3 with its JSON pointer, and nothing is written") {
@@ -118,7 +120,7 @@ TEST_CASE("a schema fault exits 3 with its JSON pointer, and nothing is written"
   plan.set("rotations", "many");
   plan.set("speed", 3);
   test::write_file(files.folder / "plan.json", plan.dump());
-  const auto outcome = gonio(files.sweep());
+  const auto outcome = run_gonio(files.sweep());
   INFO(outcome.err);
   CHECK(outcome.code == 3);
   CHECK(outcome.err.find("#/rotations") != std::string::npos);
@@ -128,12 +130,12 @@ TEST_CASE("a schema fault exits 3 with its JSON pointer, and nothing is written"
 
 TEST_CASE("an existing run is neither overwritten nor resumed with another plan") {
   const Files files;
-  REQUIRE(gonio(files.sweep()).code == 0);
+  REQUIRE(run_gonio(files.sweep()).code == 0);
   const std::string before = sha256_of_file(files.folder / "run.gonio");
-  CHECK(gonio(files.sweep()).code == 3);
+  CHECK(run_gonio(files.sweep()).code == 3);
   Json plan = parse_json(example_text("demo.plan.json"), "plan");
   plan.set("name", "another");
   test::write_file(files.folder / "plan.json", plan.dump());
-  CHECK(gonio(files.sweep() + "--resume").code == 3);
+  CHECK(run_gonio(files.sweep() + "--resume").code == 3);
   CHECK(sha256_of_file(files.folder / "run.gonio") == before);
 }

@@ -5,12 +5,12 @@
 #include "tests/check.hpp"
 
 using namespace gonio;
-using test::gonio;
+using test::run_gonio;
 
 TEST_CASE("the demo leaves every artefact, valid and not vacuous") {
   const test::Folder folder;
   const std::string out = (folder / "out").string();
-  const auto outcome = gonio("demo '" + out + "'");
+  const auto outcome = run_gonio("demo '" + out + "'");
   INFO(outcome.out << outcome.err);
   REQUIRE(outcome.code == 0);
   for (const char* file : {"run.gonio", "samples.csv", "table.brdf.exr", "fit.json", "checks.json", "export/material.binary", "lobe.png"}) {
@@ -32,12 +32,12 @@ TEST_CASE("the demo leaves every artefact, valid and not vacuous") {
 
   // Every artefact opens again.
   for (const char* file : {"run.gonio", "samples.csv", "table.brdf.exr", "fit.json", "export/material.binary"}) {
-    const auto info = gonio("info '" + (folder / "out" / file).string() + "'");
+    const auto info = run_gonio("info '" + (folder / "out" / file).string() + "'");
     INFO(file << info.err);
     CHECK(info.code == 0);
   }
   // A second demo into the same folder is refused and changes nothing.
   const std::string before = test::read_file(folder / "out" / "fit.json");
-  CHECK(gonio("demo '" + out + "'").code == 3);
+  CHECK(run_gonio("demo '" + out + "'").code == 3);
   CHECK(test::read_file(folder / "out" / "fit.json") == before);
 }

@@ -5,15 +5,15 @@
 #include "tests/check.hpp"
 
 using namespace gonio;
-using test::gonio;
+using test::run_gonio;
 
 TEST_CASE("a ten-hour sweep gives the same file for the same seed, and another for another") {
   const test::Folder folder;
   test::write_file(folder / "bench.json", std::string(example_text("demo.bench.json")));
   test::write_file(folder / "plan.json", std::string(example_text("ten-hours.plan.json")));
   const auto sweep = [&](const std::string& out, const std::string& flags) {
-    const auto outcome = gonio("sweep '" + (folder / "plan.json").string() + "' --bench '" + (folder / "bench.json").string() +
-                               "' --out '" + (folder / out).string() + "' --json " + flags);
+    const auto outcome = run_gonio("sweep '" + (folder / "plan.json").string() + "' --bench '" + (folder / "bench.json").string() +
+                                   "' --out '" + (folder / out).string() + "' --json " + flags);
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
     return outcome.json();

@@ -9,7 +9,7 @@
 #include "tests/check.hpp"
 
 using namespace gonio;
-using test::gonio;
+using test::run_gonio;
 
 namespace {
 
@@ -41,13 +41,13 @@ std::string pairs(double asymmetry) {
 }  // namespace
 
 TEST_CASE("a model that reflects more than it receives fails the energy check") {
-  const auto outcome = gonio("check blinn-phong --param rho_d=.05 --param rho_s=.93 --param s=8.764 --json");
+  const auto outcome = run_gonio("check blinn-phong --param rho_d=.05 --param rho_s=.93 --param s=8.764 --json");
   CHECK(outcome.code == 1);
   const Json document = outcome.json();
   CHECK(faults_of(document, Schema::checks, "checks").empty());
   CHECK(verdict(document, "energy") == "fail");
   CHECK(outcome.out.find("1.0499") != std::string::npos);
-  const auto exact = gonio("check blinn-phong-exact --param rho_d=.05 --param rho_s=.93 --param s=8.764 --json");
+  const auto exact = run_gonio("check blinn-phong-exact --param rho_d=.05 --param rho_s=.93 --param s=8.764 --json");
   CHECK(exact.code == 0);
   CHECK(verdict(exact.json(), "energy") == "pass");
 }
@@ -56,8 +56,8 @@ TEST_CASE("check finds asymmetry beyond the margin and exits 1, and none where t
   const test::Folder folder;
   test::write_file(folder / "fair.csv", pairs(0));
   test::write_file(folder / "lopsided.csv", pairs(0.05));
-  const auto fair = gonio("check '" + (folder / "fair.csv").string() + "' --json");
-  const auto lopsided = gonio("check '" + (folder / "lopsided.csv").string() + "' --json");
+  const auto fair = run_gonio("check '" + (folder / "fair.csv").string() + "' --json");
+  const auto lopsided = run_gonio("check '" + (folder / "lopsided.csv").string() + "' --json");
   INFO(fair.out << fair.err << lopsided.out);
   CHECK(verdict(fair.json(), "reciprocity") != "fail");
   CHECK(verdict(lopsided.json(), "reciprocity") == "fail");
@@ -65,6 +65,6 @@ TEST_CASE("check finds asymmetry beyond the margin and exits 1, and none where t
 }
 
 TEST_CASE("check refuses as many rotations as there are no files for") {
-  CHECK(gonio("check a.csv b.csv --rotation 0,45,90").code == 2);
-  CHECK(gonio("check a.csv --margin -1").code == 2);
+  CHECK(run_gonio("check a.csv b.csv --rotation 0,45,90").code == 2);
+  CHECK(run_gonio("check a.csv --margin -1").code == 2);
 }

@@ -8,7 +8,7 @@
 #include "tests/check.hpp"
 
 using namespace gonio;
-using test::gonio;
+using test::run_gonio;
 
 namespace {
 
@@ -40,8 +40,8 @@ TEST_CASE("fit gives the published parameters of the vegetation data for every m
   constexpr double last_digit = 1e-3;
   for (const Row& row : rows) {
     const auto outcome =
-        gonio("fit '" + path->string() +
-              "' --columns theta_i_deg=1,phi_i_deg=2,theta_o_deg=3,phi_o_deg=4,value=5 --model phong --json --metric " + row.metric);
+        run_gonio("fit '" + path->string() +
+                  "' --columns theta_i_deg=1,phi_i_deg=2,theta_o_deg=3,phi_o_deg=4,value=5 --model phong --json --metric " + row.metric);
     INFO(row.metric << ": " << outcome.err);
     REQUIRE(outcome.code == 0);
     const Json document = outcome.json();
@@ -59,7 +59,7 @@ TEST_CASE("fit says when nothing can be fitted, and exits 1 only if it did not c
   for (int theta = 0; theta < 80; theta += 5) text += "30,0," + std::to_string(theta) + ",180,0.1,0.001\n";
   test::write_file(folder / "flat.csv", text);
   // No lobe in the data: s is unidentified, and that is an answer.
-  const auto flat = gonio("fit '" + (folder / "flat.csv").string() + "' --model blinn-phong --json");
+  const auto flat = run_gonio("fit '" + (folder / "flat.csv").string() + "' --model blinn-phong --json");
   INFO(flat.err);
   REQUIRE(flat.code == 0);
   for (const Json& p : flat.json().at("parameters").elements())
@@ -70,7 +70,7 @@ TEST_CASE("fit says when nothing can be fitted, and exits 1 only if it did not c
     }
   // Negative values only, fitted in the logarithm: nothing is usable.
   test::write_file(folder / "negative.csv", "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value\n30,0,30,180,-0.1\n30,0,40,180,-0.2\n");
-  const auto negative = gonio("fit '" + (folder / "negative.csv").string() + "' --model phong --metric log --json");
+  const auto negative = run_gonio("fit '" + (folder / "negative.csv").string() + "' --model phong --metric log --json");
   CHECK(negative.code == 1);
   CHECK(negative.json().at("status").string() == "no_usable_data");
 }
@@ -81,7 +81,8 @@ TEST_CASE("fit --out writes the document that open and eval read as a model") {
   const std::string lambert = "0.1";
   for (int theta = 0; theta < 80; theta += 5) text += "30,0," + std::to_string(theta) + ",180," + lambert + "\n";
   test::write_file(folder / "flat.csv", text);
-  REQUIRE(gonio("fit '" + (folder / "flat.csv").string() + "' --model lambert --out '" + (folder / "fit.json").string() + "'").code == 0);
-  const auto value = gonio("eval '" + (folder / "fit.json").string() + "'", "10 0 20 90\n");
+  REQUIRE(run_gonio("fit '" + (folder / "flat.csv").string() + "' --model lambert --out '" + (folder / "fit.json").string() + "'").code ==
+          0);
+  const auto value = run_gonio("eval '" + (folder / "fit.json").string() + "'", "10 0 20 90\n");
   CHECK(std::stod(value.out) == Approx(0.1).epsilon(1e-12));
 }
