@@ -74,8 +74,8 @@ int sweep_verb(const Arguments& arguments, Console& console) {
   if (is_embedded(bench)) brdf = simulated_sample(bench, source.bench, sample, parameters);
   for (const std::string& line : plan_lines(plan, bench)) console.note(line);
 
+  if (resume) require_same(Run::open(out), bench, request, out);
   Run run = resume ? Run::open(out, true) : Run::create(out, bench, request, plan);
-  if (resume) require_same(run, bench, request, out);
   const ClockChoice choice = clock == "real" ? ClockChoice::real : clock == "virtual" ? ClockChoice::virtual_time : ClockChoice::bench;
   const SweepResult result = measure(run, bench, brdf, choice, console);
 

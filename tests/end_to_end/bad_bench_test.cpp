@@ -45,7 +45,7 @@ struct Files {
     test::write_file(folder / "bench.json", std::string(example_text("demo.bench.json")));
     test::write_file(folder / "plan.json", std::string(example_text("demo.plan.json")));
   }
-  std::string path(const std::string& name) const { return "'" + (folder / name).string() + "'"; }
+  std::string path(const std::string& name) const { return fmt::format("'{}'", (folder / name).string()); }
   std::string sweep() const {
     return "sweep " + path("plan.json") + " --bench " + path("bench.json") + " --out " + path("run.gonio") + " --quiet ";
   }

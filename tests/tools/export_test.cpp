@@ -39,7 +39,8 @@ TEST_CASE("a fit exported as MERL has the right size, reads back and fits to its
     const auto outcome = run_gonio("fit '" + merl + "' --model blinn-phong --json " + flags);
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
-    for (const Json& p : outcome.json().at("parameters").elements())
+    const Json document = outcome.json();
+    for (const Json& p : document.at("parameters").elements())
       if (p.at("name").string() == "s") return p.at("value").number();
     return 0.0;
   };

@@ -62,7 +62,8 @@ TEST_CASE("fit says when nothing can be fitted, and exits 1 only if it did not c
   const auto flat = run_gonio("fit '" + (folder / "flat.csv").string() + "' --model blinn-phong --json");
   INFO(flat.err);
   REQUIRE(flat.code == 0);
-  for (const Json& p : flat.json().at("parameters").elements())
+  const Json document = flat.json();
+  for (const Json& p : document.at("parameters").elements())
     if (p.at("name").string() == "s") {
       CHECK(p.at("kind").string() == "unidentified");
       CHECK(p.at("sigma").is_null());
