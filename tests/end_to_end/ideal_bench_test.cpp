@@ -11,25 +11,25 @@ using namespace gonio;
 
 namespace {
 
-/// Poses that lie between the counts of the drives.
-acquisition::PlanRequest plan_between_counts() {
-  Json plan = parse_json(example_text("demo.plan.json"), "plan"), incident = plan.at("incident"), outgoing = plan.at("outgoing"), angles;
-  for (const double angle : {10.00000037, 33.33333333333, 61.23456789}) angles.push_back(angle);
-  incident.set("theta_deg", angles);
-  for (const double angle : {5.1111111111, 44.4444444444, 71.7171717171, 86.66666666666}) angles.push_back(angle);
-  outgoing.set("theta_deg", angles);
-  plan.set("incident", incident);
-  plan.set("outgoing", outgoing);
-  return acquisition::plan_from(plan);
+/// The ideal bench with axes whose zero lies between two counts, so that no asked pose (plans are in whole microdegrees) is a count.
+acquisition::Bench bench_between_counts() {
+  Json bench = parse_json(example_text("ideal.bench.json"), "bench"), axes = Json::array();
+  for (const Json& axis : bench.at("axes").elements()) {
+    Json shifted = axis;
+    shifted.set("zero_offset_deg", 3.7e-7);
+    axes.push_back(shifted);
+  }
+  bench.set("axes", axes);
+  return acquisition::bench_from(bench, ".");
 }
 
 }  // namespace
 
 TEST_CASE("an ideal bench gives the model at the read-back pose to 1e-12, and the asked pose within half a count") {
   const test::Folder folder;
-  const acquisition::Bench bench = test::example_bench("ideal.bench.json", 1);
+  const acquisition::Bench bench = bench_between_counts();
   const auto sample = test::example_sample(bench);
-  const Dataset data = test::measure(bench, plan_between_counts(), sample, folder / "run.gonio");
+  const Dataset data = test::measure(bench, test::example_plan("demo.plan.json"), sample, folder / "run.gonio");
   REQUIRE(data.size() > 500);
   REQUIRE(bench.axes.front().counts_per_deg == 1e6);
   // The meter prints 17 digits and the equation has a dozen operations: 1e-12 leaves room for nothing but rounding.
@@ -50,9 +50,9 @@ TEST_CASE("an ideal bench gives the model at the read-back pose to 1e-12, and th
 
 TEST_CASE("the closure sees a model that is wrong by 1e-9") {
   const test::Folder folder;
-  const acquisition::Bench bench = test::example_bench("ideal.bench.json", 1);
+  const acquisition::Bench bench = bench_between_counts();
   const auto sample = test::example_sample(bench);
-  const Dataset data = test::measure(bench, plan_between_counts(), sample, folder / "run.gonio");
+  const Dataset data = test::measure(bench, test::example_plan("demo.plan.json"), sample, folder / "run.gonio");
   auto values = sample->values();
   values[0][0] *= 1 + 1e-9;
   const AnalyticBrdf wrong(sample->model().name, single_channel("value"), values);
