@@ -54,7 +54,7 @@ int sweep_verb(const Arguments& arguments, Console& console) {
   bool resume = false;
   source.add_to(app);
   app.add_option("--out", out, "Run file (.gonio)")->required();
-  app.add_flag("--resume", resume, "Go on with an existing run file");
+  app.add_flag("--resume", resume, "Go on with the run file if it exists");
   app.add_option("--sample", sample, "Simulated bench: a model's name or a BRDF file instead of the bench file's sample");
   app.add_option("--param", parameters, "NAME=VALUE of the sample's model")->take_all();
   app.add_option("--seed", seed, "Simulated bench: another seed than the bench file's");
@@ -74,8 +74,10 @@ int sweep_verb(const Arguments& arguments, Console& console) {
   if (is_embedded(bench)) brdf = simulated_sample(bench, source.bench, sample, parameters);
   for (const std::string& line : plan_lines(plan, bench)) console.note(line);
 
-  if (resume) require_same(Run::open(out), bench, request, out);
-  Run run = resume ? Run::open(out, true) : Run::create(out, bench, request, plan);
+  // A sweep that was stopped before its run file stood is begun anew.
+  const bool exists = resume && std::filesystem::exists(out);
+  if (exists) require_same(Run::open(out), bench, request, out);
+  Run run = exists ? Run::open(out, true) : Run::create(out, bench, request, plan);
   const ClockChoice choice = clock == "real" ? ClockChoice::real : clock == "virtual" ? ClockChoice::virtual_time : ClockChoice::bench;
   const SweepResult result = measure(run, bench, brdf, choice, console);
 
