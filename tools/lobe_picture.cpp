@@ -36,6 +36,12 @@ std::map<int, std::vector<Point>> points_in_plane(const Dataset& samples, const 
     const double sign = turn.cos() <= 0 ? 1 : -1;
     out[static_cast<int>(std::lround(a.theta_i.degrees() * 10))].push_back({sign * a.theta_o.degrees(), f, u, fitted.eval(a)[0]});
   }
+  // Incidences that only reciprocal partners visit have a point or two: they would hide the lobes.
+  constexpr std::size_t a_lobe = 6;
+  const auto most =
+      std::max_element(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
+  if (most != out.end() && most->second.size() >= a_lobe)
+    std::erase_if(out, [](const auto& entry) { return entry.second.size() < a_lobe; });
   for (auto& [incidence, points] : out)
     std::sort(points.begin(), points.end(), [](const Point& a, const Point& b) { return a.theta_o_deg < b.theta_o_deg; });
   return out;
@@ -66,6 +72,9 @@ std::string script(const std::map<int, std::vector<Point>>& in_plane, const Data
     text += "EOD\n";
     ++index;
   }
+  double lowest = INFINITY, highest = 0;
+  for (const auto& [incidence, points] : in_plane)
+    for (const Point& p : points) lowest = std::fmin(lowest, p.f), highest = std::fmax(highest, p.f);
   std::string parameters;
   for (std::size_t k = 0; k < fitted.values()[0].size(); ++k)
     parameters += fmt::format("  {} = {:.4g}", fitted.model().parameters[k].name, fitted.values()[0][k]);
@@ -74,10 +83,11 @@ std::string script(const std::map<int, std::vector<Point>>& in_plane, const Data
       "set multiplot\nset lmargin 11\nset rmargin 3\nset grid lc rgb '#dddddd' lt 1\nset xrange [-90:90]\nset xtics 15\nset border lc rgb "
       "'#444444'\nset style fill transparent solid 0.3\n";
   text += fmt::format(
-      "set origin 0,0.36\nset size 1,0.64\nset bmargin 0.5\nset tmargin 4\nset logscale y\nset format y '%g'\nset format x ''\nset ylabel "
+      "set origin 0,0.36\nset size 1,0.64\nset bmargin 0.5\nset tmargin 4\nset logscale y\nset yrange [{}:{}]\nset format y '%g'\nset "
+      "format x ''\nset ylabel "
       "'f_r  [1/sr]'\nset key top left spacing 1.2\nset title \"{} samples and fitted {} in the plane of incidence\\n{}{}\" noenhanced\n",
-      samples.simulated ? "Simulated" : "Measured", fitted.model().name, parameters.substr(std::min<std::size_t>(2, parameters.size())),
-      "   (lines: fit, points: measured, bars: k = 2)");
+      lowest / 1.6, highest * 1.6, samples.simulated ? "Simulated" : "Measured", fitted.model().name,
+      parameters.substr(std::min<std::size_t>(2, parameters.size())), "   (lines: fit, points: measured, bars: k = 2)");
   text += "plot ";
   index = 0;
   for (const auto& [incidence, points] : in_plane) {
@@ -89,7 +99,8 @@ std::string script(const std::map<int, std::vector<Point>>& in_plane, const Data
     ++index;
   }
   text +=
-      "\nset origin 0,0\nset size 1,0.36\nset tmargin 0.5\nset bmargin 4\nunset logscale y\nunset title\nunset key\nset format x "
+      "\nset origin 0,0\nset size 1,0.36\nset tmargin 0.5\nset bmargin 4\nunset logscale y\nset autoscale y\nunset title\nunset key\nset "
+      "format x "
       "'%g°'\nset xlabel 'zenith angle of the outgoing direction (positive: specular side)'\nset ylabel 'measured / fit - 1  [%]'\nplot 0 "
       "with lines lc rgb '#444444'";
   for (index = 0; index < static_cast<int>(in_plane.size()); ++index)

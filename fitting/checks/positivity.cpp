@@ -106,9 +106,9 @@ Check check_positivity(const CheckSubject& subject, const CheckOptions& options)
   check.u_effect = std::sqrt(std::max(expected_part, static_cast<double>(counts.significant) / n) / n);
   check.effect_upper = std::max(0.0, binomial_upper_limit(counts.significant, counts.with_u, options.alpha) - expected_part);
   check.verdict = judge(*check.p_value < options.alpha, *check.effect, *check.effect_upper, options.margin);
-  check.detail =
-      fmt::format("{} of {} values lie more than 3 standard uncertainties below zero ({:.2g} expected from noise), the lowest {:.1f} below",
-                  counts.significant, counts.with_u, n * expected_part, -counts.lowest_z);
+  check.detail = fmt::format("{} of {} values lie more than 3 standard uncertainties below zero ({:.2g} expected from noise){}",
+                             counts.significant, counts.with_u, n * expected_part,
+                             counts.lowest_z < 0 ? fmt::format(", the lowest {:.1f} below", -counts.lowest_z) : ", none below zero at all");
   if (check.verdict == Verdict::vacuous)
     check.detail += fmt::format("; {} values cannot tell within {:.2g} %", counts.with_u, 100 * options.margin);
   return check;
