@@ -58,10 +58,4 @@ double half_vector_lobe_integral(double s, Angle theta) noexcept {
   return 2 * pi * h + 2 * C * sum;
 }
 
-double blinn_phong_norm(double s) noexcept { return (s + 8) / (8 * pi); }
-
-double blinn_phong_exact_norm(double s) noexcept { return (s + 2) / (s + std::exp2(-s / 2)) * ((s + 4) / (8 * pi)); }
-
-double phong_norm(double s) noexcept { return (s + 2) / (2 * pi); }
-
 }  // namespace gonio

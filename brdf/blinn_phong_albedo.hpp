@@ -2,6 +2,9 @@
 // Directional albedo of the half-vector cosine lobe, and its normalisations.
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "brdf/angle.hpp"
 
 namespace gonio {
@@ -14,11 +17,22 @@ namespace gonio {
 /// Ends: J(s, 0) = 8π(2^{-s/2}+s)/((s+2)(s+4)) (Giesen 2009), J(s, 90°) = 8π/((s+2)(s+4)).
 double half_vector_lobe_integral(double s, Angle theta) noexcept;
 
-/// (s+8)/(8π), the common approximate normalisation: over-reflects, albedo up to 1.0752 at s = 8.764.
-double blinn_phong_norm(double s) noexcept;
+/// (s+8)/(8π), the common approximate normalisation: over-reflects, albedo up to 1.0752 at s = 8.764. In any scalar type, as the others.
+template <class T>
+T blinn_phong_norm(const T& s) {
+  return (s + 8.0) * (0.125 / std::numbers::pi);
+}
 /// (s+2)(s+4)/(8π(2^{-s/2}+s)), which makes the albedo at normal incidence exactly 1 (Giesen 2009).
-double blinn_phong_exact_norm(double s) noexcept;
-/// (s+2)/(2π): normalises the distribution of half vectors; as a BRDF constant it is up to four times too bright.
-double phong_norm(double s) noexcept;
+template <class T>
+T blinn_phong_exact_norm(const T& s) {
+  using std::exp;
+  return (s + 2.0) / (s + exp(s * (-0.5 * std::numbers::ln2))) * ((s + 4.0) * (0.125 / std::numbers::pi));
+}
+/// (s+2)/(2π): exact for the lobe about the mirror direction at normal incidence; for the half-vector lobe it normalises the
+/// distribution of half vectors, and as a BRDF constant is up to four times too bright.
+template <class T>
+T phong_norm(const T& s) {
+  return (s + 2.0) * (0.5 / std::numbers::pi);
+}
 
 }  // namespace gonio

@@ -41,7 +41,7 @@ std::chrono::milliseconds Console::progress_interval() const { return std::chron
 void Console::note_masked(const std::string& file, const MaskedCounts& masked) const {
   if (masked.total() == 0) return;
   std::ostringstream text;
-  text << file << ": " << masked.total() << " rows are no measurement (" << masked.nan << " nan, " << masked.missing << " missing, "
+  text << file << ": " << masked.total() << " entries are no measurement (" << masked.nan << " nan, " << masked.missing << " missing, "
        << masked.below_horizon << " below the horizon, " << masked.blocked << " blocked)";
   note(text.str());
 }

@@ -22,7 +22,7 @@ TEST_CASE("import turns a mapped file into ours and counts what is no measuremen
   CHECK(masked.at("missing").integer() == 1);
   CHECK(masked.at("below_horizon").integer() == 1);
   CHECK(outcome.json().at("samples").integer() == 2);
-  CHECK(outcome.err.find("3 rows are no measurement") != std::string::npos);
+  CHECK(outcome.err.find("3 entries are no measurement") != std::string::npos);
   const auto value = run_gonio("info '" + (folder / "out.csv").string() + "'");
   CHECK(value.code == 0);
 }
