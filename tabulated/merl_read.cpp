@@ -52,7 +52,7 @@ std::size_t count_masked(const MerlPlanes& planes, const std::filesystem::path& 
       std::memcpy(values[c].data(), static_cast<const std::byte*>(planes.first[c]) + first * sizeof(double), count * sizeof(double));
     double not_finite = 0;  // 0 x finite is 0, 0 x infinity and 0 x NaN are NaN
     for (std::size_t k = 0; k < count; ++k) {
-      masked += (values[0][k] < 0) | (values[1][k] < 0) | (values[2][k] < 0);
+      masked += std::min({values[0][k], values[1][k], values[2][k]}) < 0 ? 1 : 0;
       not_finite += 0 * values[0][k] + 0 * values[1][k] + 0 * values[2][k];
     }
     if (not_finite == 0) continue;

@@ -20,7 +20,7 @@ struct Outcome {
 
 /// `gonio ARGUMENTS` by the shell, standard input from `in`.
 inline Outcome run_gonio(const std::string& arguments, const std::string& in = "") {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_file(folder / "in", in);
   const auto quoted = [&](const char* name) { return " '" + (folder / name).string() + "'"; };
   const std::string command =

@@ -65,7 +65,8 @@ tabulated::Opened model_source(const std::string& model, const std::vector<std::
   std::vector<std::optional<double>> values(info.parameters.size());
   std::vector<Fault> faults;
   for (const std::string& text : parameters) {
-    const auto [name, value] = name_value(text, "--param");
+    const auto given = name_value(text, "--param");
+    const std::string &name = given.first, &value = given.second;
     const auto at = std::find_if(info.parameters.begin(), info.parameters.end(), [&](const Parameter& p) { return p.name == name; });
     if (at == info.parameters.end())
       faults.push_back({"--param", "'" + name + "'", "a parameter of " + model});

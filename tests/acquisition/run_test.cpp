@@ -117,7 +117,7 @@ TEST_CASE("An existing file is never overwritten") {
   const auto path = folder / "run.gonio";
   std::ofstream(path) << "precious";
   CHECK(kind_of([&] { Run::create(path, bench, {}, small_plan(bench, 1)); }) == ErrorKind::input);
-  CHECK(bytes_of(path) == "precious");
+  CHECK(gonio::test::read_file(path) == "precious");
   CHECK(kind_of([&] { Run::create(folder / "no-such-folder/run.gonio", bench, {}, small_plan(bench, 1)); }) == ErrorKind::input);
 }
 
@@ -129,7 +129,7 @@ TEST_CASE("What is no run file is refused and left as it is") {
     const auto path = folder / "file";
     std::ofstream(path, std::ios::binary) << text;
     CHECK(kind_of([&] { Run::open(path, true); }) == ErrorKind::input);
-    CHECK(bytes_of(path) == text);
+    CHECK(gonio::test::read_file(path) == text);
   }
 }
 
@@ -149,7 +149,7 @@ TEST_CASE("A damaged run file gives errors, never numbers from garbage or a cras
     Run run = Run::create(path, bench, {}, small_plan(bench, 10));
     for (std::int64_t k = 0; k < 10; ++k) run.append(reading_of(k));
   }
-  const std::string whole = bytes_of(path);
+  const std::string whole = gonio::test::read_file(path);
   constexpr unsigned seed = 5;
   std::mt19937 random(seed);
   int refused = 0;

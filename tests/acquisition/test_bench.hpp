@@ -18,6 +18,7 @@
 #include "acquisition/sweep.hpp"
 #include "brdf/analytic_brdf.hpp"
 #include "data-schemas/document.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace gonio::acquisition::test {
 
@@ -28,32 +29,7 @@ inline std::shared_ptr<const AnalyticBrdf> sample() {
   return std::make_shared<AnalyticBrdf>("blinn-phong", single_channel("550nm"), std::vector<std::vector<double>>{{0.25, 0.35, 60}});
 }
 
-/// A folder that goes away with its owner.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "gonio-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw Error(ErrorKind::internal, Fault{pattern, "no folder", "a temporary folder"});
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
-inline std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
+using gonio::test::TemporaryFolder;
 
 /// Dark and reference, then `points` sample poses in and out of the plane of incidence with a dark and a reference every 20, and again at
 /// the end.

@@ -2,7 +2,7 @@
 // Loading documents, and the context block.
 #include "data-schemas/document.hpp"
 
-#include "tests/data-schemas/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
@@ -10,7 +10,7 @@ using gonio::Json;
 using gonio::Schema;
 
 TEST_CASE("the context block is complete, in order, and what the schema wants", "[document]") {
-  const gonio::testing::TemporaryFolder folder;
+  const gonio::test::TemporaryFolder folder;
   gonio::write_file_atomically(folder / "samples.csv", "abc");
   const Json context = gonio::context({gonio::hash_in_background(folder / "samples.csv")}, 42, true);
   std::string keys;
@@ -30,12 +30,12 @@ TEST_CASE("without a seed the context says null, and an unreadable input is an e
   CHECK(context.at("seed").is_null());
   CHECK(context.at("inputs").size() == 0);
   CHECK(gonio::faults_of(Json::object({{"context", context}, {"checks", Json::array()}}), Schema::checks, "doc").empty());
-  const gonio::testing::TemporaryFolder folder;
+  const gonio::test::TemporaryFolder folder;
   CHECK_THROWS_AS(gonio::context({gonio::hash_in_background(folder / "missing")}, 1, false), gonio::Error);
 }
 
 TEST_CASE("a document that cannot be read, parsed or accepted is an input error", "[document]") {
-  const gonio::testing::TemporaryFolder folder;
+  const gonio::test::TemporaryFolder folder;
   const auto faults = [&](const std::filesystem::path& path) {
     try {
       gonio::load_document(path, Schema::checks);

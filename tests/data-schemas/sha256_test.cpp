@@ -4,7 +4,7 @@
 
 #include "brdf/error.hpp"
 #include "data-schemas/write_file.hpp"
-#include "tests/data-schemas/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
@@ -26,7 +26,7 @@ TEST_CASE("SHA-256 gives NIST's values", "[sha256]") {
 }
 
 TEST_CASE("a file is hashed as its bytes are, also in the background", "[sha256]") {
-  const gonio::testing::TemporaryFolder folder;
+  const gonio::test::TemporaryFolder folder;
   gonio::write_file_atomically(folder / "million", std::string(1'000'000, 'a'));
   gonio::write_file_atomically(folder / "empty", "");
   CHECK(gonio::sha256_of_file(folder / "million") == of_million_a);
@@ -37,7 +37,7 @@ TEST_CASE("a file is hashed as its bytes are, also in the background", "[sha256]
 }
 
 TEST_CASE("a file that cannot be read is an input error, also in the background", "[sha256]") {
-  const gonio::testing::TemporaryFolder folder;
+  const gonio::test::TemporaryFolder folder;
   CHECK_THROWS_AS(gonio::sha256_of_file(folder / "missing"), gonio::Error);
   CHECK_THROWS_AS(gonio::sha256_of_file(folder.path()), gonio::Error);
   CHECK_THROWS_AS(gonio::hash_in_background(folder / "missing").sha256.get(), gonio::Error);

@@ -10,7 +10,7 @@
 
 #include "brdf/error.hpp"
 #include "data-schemas/document.hpp"
-#include "tests/data-schemas/temporary_folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
@@ -26,7 +26,7 @@ std::size_t files_in(const fs::path& folder) {
 }  // namespace
 
 TEST_CASE("a file is written and replaced whole", "[write_file]") {
-  const gonio::testing::TemporaryFolder folder;
+  const gonio::test::TemporaryFolder folder;
   const std::string bytes("a\0b\n", 4);
   write_file_atomically(folder / "f", bytes);
   CHECK(gonio::read_file(folder / "f") == bytes);
@@ -36,7 +36,7 @@ TEST_CASE("a file is written and replaced whole", "[write_file]") {
 }
 
 TEST_CASE("a write that fails leaves nothing behind and the old file untouched", "[write_file]") {
-  const gonio::testing::TemporaryFolder folder;
+  const gonio::test::TemporaryFolder folder;
   CHECK_THROWS_AS(write_file_atomically(folder / "missing" / "f", "x"), gonio::Error);
   CHECK_FALSE(fs::exists(folder / "missing"));
   write_file_atomically(folder / "file", "old");
@@ -58,7 +58,7 @@ TEST_CASE("a full device is an input error", "[write_file]") {
 }
 
 TEST_CASE("a link is followed and a device is not replaced", "[write_file]") {
-  const gonio::testing::TemporaryFolder folder;
+  const gonio::test::TemporaryFolder folder;
   write_file_atomically(folder / "target", "old");
   fs::create_symlink("target", folder / "link");
   write_file_atomically(folder / "link", "new");
@@ -69,7 +69,7 @@ TEST_CASE("a link is followed and a device is not replaced", "[write_file]") {
 }
 
 TEST_CASE("a reader sees the old bytes or the new ones, never a part", "[write_file]") {
-  const gonio::testing::TemporaryFolder folder;
+  const gonio::test::TemporaryFolder folder;
   constexpr std::size_t size = 1 << 16;
   write_file_atomically(folder / "f", std::string(size, 'a'));
   std::atomic<bool> done{false};

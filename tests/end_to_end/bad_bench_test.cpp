@@ -40,7 +40,7 @@ class Port {
 };
 
 struct Files {
-  test::Folder folder;
+  test::TemporaryFolder folder;
   Files() {
     test::write_file(folder / "bench.json", std::string(example_text("demo.bench.json")));
     test::write_file(folder / "plan.json", std::string(example_text("demo.plan.json")));

@@ -16,7 +16,7 @@ TEST_CASE("over 300 seeds the 95 % intervals of every parameter hold the truth i
   std::map<std::string, int> held, half_held;
   int two_sided = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const test::Folder folder;
+    const test::TemporaryFolder folder;
     const acquisition::Bench bench = test::example_bench("demo.bench.json", static_cast<std::uint64_t>(seed));
     const auto sample = test::example_sample(bench);
     const auto data = std::make_shared<Dataset>(test::measure(bench, test::example_plan("demo.plan.json"), sample, folder / "run.gonio"));

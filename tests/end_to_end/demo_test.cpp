@@ -8,7 +8,7 @@ using namespace gonio;
 using test::run_gonio;
 
 TEST_CASE("the demo leaves every artefact, valid and not vacuous") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   const std::string out = (folder / "out").string();
   const auto outcome = run_gonio("demo '" + out + "'");
   INFO(outcome.out << outcome.err);

@@ -26,7 +26,7 @@ acquisition::Bench bench_between_counts() {
 }  // namespace
 
 TEST_CASE("an ideal bench gives the model at the read-back pose to 1e-12, and the asked pose within half a count") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   const acquisition::Bench bench = bench_between_counts();
   const auto sample = test::example_sample(bench);
   const Dataset data = test::measure(bench, test::example_plan("demo.plan.json"), sample, folder / "run.gonio");
@@ -49,7 +49,7 @@ TEST_CASE("an ideal bench gives the model at the read-back pose to 1e-12, and th
 }
 
 TEST_CASE("the closure sees a model that is wrong by 1e-9") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   const acquisition::Bench bench = bench_between_counts();
   const auto sample = test::example_sample(bench);
   const Dataset data = test::measure(bench, test::example_plan("demo.plan.json"), sample, folder / "run.gonio");

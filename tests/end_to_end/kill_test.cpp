@@ -47,7 +47,7 @@ Values accepted(const std::filesystem::path& path) {
 }  // namespace
 
 TEST_CASE("a sweep killed at 100 random instants and resumed reads bit for bit what an uninterrupted one does") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   test::write_file(folder / "bench.json", bench_without_drift());
   test::write_file(folder / "plan.json", std::string(example_text("demo.plan.json")));
   const std::string binary = GONIO_BINARY, bench = (folder / "bench.json").string(), plan = (folder / "plan.json").string();

@@ -8,7 +8,7 @@ using namespace gonio;
 using test::run_gonio;
 
 TEST_CASE("a ten-hour sweep gives the same file for the same seed, and another for another") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   test::write_file(folder / "bench.json", std::string(example_text("demo.bench.json")));
   test::write_file(folder / "plan.json", std::string(example_text("ten-hours.plan.json")));
   const auto sweep = [&](const std::string& out, const std::string& flags) {

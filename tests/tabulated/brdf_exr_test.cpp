@@ -8,15 +8,16 @@
 
 #include "tabulated/csv.hpp"
 #include "tests/shared_data.hpp"
-#include "tests/tabulated/scratch.hpp"
+#include "tests/tabulated/faults_text.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::test::contents;
+using gonio::test::read_file;
 using gonio::test::faults_of;
-using gonio::test::Scratch;
+using gonio::test::TemporaryFolder;
 
 namespace {
 
@@ -59,7 +60,7 @@ Dataset grid(Channels channels, bool float_data) {
 }
 
 Dataset there_and_back(const Dataset& dataset) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   write_brdf_exr(tabulate(dataset), scratch / "t.brdf.exr");
   const Opened opened = open_brdf(scratch / "t.brdf.exr");
   REQUIRE(opened.format == "brdf-exr");
@@ -121,7 +122,7 @@ TEST_CASE("An uncertainty too small for a float does not become a claim of none"
 }
 
 TEST_CASE("A value too large for a float is refused and nothing is written") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   Dataset in = grid(single_channel("value"), true);
   in.f[0][0] = 1e39;
   CHECK(faults_of([&] { write_brdf_exr(tabulate(in), scratch / "t"); }).find("1e+39") != std::string::npos);
@@ -129,7 +130,7 @@ TEST_CASE("A value too large for a float is refused and nothing is written") {
 }
 
 TEST_CASE("A channel name that another one has, or that is empty, is refused") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   Dataset in = grid(rgb_channels(), true);
   in.channels[1] = in.channels[0];
   CHECK(faults_of([&] { write_brdf_exr(tabulate(in), scratch / "t"); }).find("part value|a channel named 'f.r'") != std::string::npos);
@@ -153,9 +154,9 @@ TEST_CASE("The measured RT-300S file is the same samples as a table") {
 }
 
 TEST_CASE("A truncated file is refused, wherever it is cut") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   write_brdf_exr(tabulate(grid(rgb_channels(), true)), scratch / "t");
-  const std::string whole = contents(scratch / "t");
+  const std::string whole = read_file(scratch / "t");
   int refused = 0, cuts = 0;
   for (std::size_t size = 4; size < whole.size(); size += 37) {
     ++cuts;
@@ -166,7 +167,7 @@ TEST_CASE("A truncated file is refused, wherever it is cut") {
 }
 
 TEST_CASE("Another kind of image or no image at all is refused") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   ReadOptions options;
   options.format = "brdf-exr";
   CHECK(faults_of([&] { open_brdf(scratch.file("text", "not an image"), options); }).find("input|") == 0);
@@ -174,10 +175,10 @@ TEST_CASE("Another kind of image or no image at all is refused") {
 }
 
 TEST_CASE("No damaged EXR file does more than raise an error") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Channels spectral = spectral_channels();
   write_brdf_exr(tabulate(grid(spectral, true)), scratch / "t");
-  const std::string whole = contents(scratch / "t");
+  const std::string whole = read_file(scratch / "t");
   std::mt19937 random(20260706);
   const std::size_t header_end = whole.find("displayWindow") + 4000;  // most damage where it can do most harm
   int read = 0, refused = 0;

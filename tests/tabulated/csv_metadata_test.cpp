@@ -3,7 +3,8 @@
 
 #include <sstream>
 
-#include "tests/tabulated/scratch.hpp"
+#include "tests/tabulated/faults_text.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 

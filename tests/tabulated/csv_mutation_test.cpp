@@ -3,21 +3,22 @@
 #include <random>
 
 #include "tabulated/csv.hpp"
-#include "tests/tabulated/scratch.hpp"
+#include "tests/tabulated/faults_text.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::test::contents;
-using gonio::test::Scratch;
+using gonio::test::read_file;
+using gonio::test::TemporaryFolder;
 
 namespace {
 
 const std::string plain =
     "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value,u_value\n30,0,40,180,.5,.1\n30,0,-40,10,1e-3,nan\n30,0,90,180,-1,1\n";
 
-std::string with_metadata(const Scratch& scratch) {
+std::string with_metadata(const TemporaryFolder& scratch) {
   Dataset data;
   data.channels = rgb_channels();
   data.channels[0].wavelength_in_nm = 550;
@@ -27,13 +28,13 @@ std::string with_metadata(const Scratch& scratch) {
   data.correlated = {{"scale", 0.1, {1, 1}}};
   data.provenance = {{"who", "me"}};
   write_csv(data, scratch / "seed.csv");
-  return contents(scratch / "seed.csv");
+  return read_file(scratch / "seed.csv");
 }
 
 }  // namespace
 
 TEST_CASE("No damaged CSV file does more than raise an error") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::mt19937 random(20260703);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   const std::string letters = std::string("0123456789.-+eE,;\t \"#\r\n\\:naNAinf", 34) + std::string("\0\xff", 2);

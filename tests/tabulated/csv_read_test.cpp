@@ -4,14 +4,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/tabulated/scratch.hpp"
+#include "tests/tabulated/faults_text.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
 using gonio::test::faults_of;
-using gonio::test::Scratch;
+using gonio::test::TemporaryFolder;
 
 namespace {
 
@@ -20,7 +21,7 @@ constexpr double rounding_only = 1e-15;  // one multiplication or division away 
 const std::string head = "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value\n";
 
 Dataset read(const std::string& text, const ReadOptions& options = {}) {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   return read_csv(scratch.file("file.csv", text), options);
 }
 
@@ -159,7 +160,7 @@ TEST_CASE("Every quantity becomes f on entry, and its uncertainty with it") {
 }
 
 TEST_CASE("A blank is subtracted at equal directions before conversion") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   ReadOptions options;
   options.quantity = Quantity::reflectance_factor;
   options.blank = scratch.file(

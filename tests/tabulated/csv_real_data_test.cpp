@@ -8,14 +8,15 @@
 
 #include "tabulated/csv.hpp"
 #include "tests/shared_data.hpp"
-#include "tests/tabulated/scratch.hpp"
+#include "tests/tabulated/faults_text.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::test::contents;
-using gonio::test::Scratch;
+using gonio::test::read_file;
+using gonio::test::TemporaryFolder;
 
 namespace {
 
@@ -90,11 +91,11 @@ TEST_CASE("The RT-300S black coating gives its published means after blank and c
 TEST_CASE("Cornell's paints read in radians once their preamble is cut off") {
   const auto path = measured("cornell/krylon_blue.brdf");
   if (path.empty()) return;
-  std::istringstream lines(contents(path));
+  std::istringstream lines(read_file(path));
   std::string rows;
   for (std::string line; std::getline(lines, line);)
     if (std::count(line.begin(), line.end(), '.') == 35) rows += line + "\n";
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   ReadOptions options;
   options.columns = {{"theta_i_rad", "1"}, {"phi_i_rad", "2"}, {"theta_o_rad", "3"}, {"phi_o_rad", "4"}};
   for (int k = 0; k < 31; ++k) options.columns.emplace_back(fmt::format("{}nm", 400 + 10 * k), std::to_string(5 + k));

@@ -5,15 +5,16 @@
 #include <random>
 
 #include "tabulated/csv.hpp"
-#include "tests/tabulated/scratch.hpp"
+#include "tests/tabulated/faults_text.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::test::contents;
+using gonio::test::read_file;
 using gonio::test::faults_of;
-using gonio::test::Scratch;
+using gonio::test::TemporaryFolder;
 
 namespace {
 
@@ -63,7 +64,7 @@ Dataset rich_dataset(bool angles_in_radians) {
 TEST_CASE("CSV to CSV loses nothing") {
   for (const bool angles_in_radians : {false, true}) {
     const Dataset out = rich_dataset(angles_in_radians);
-    const Scratch scratch;
+    const TemporaryFolder scratch;
     write_csv(out, scratch / "a.csv");
     const Dataset in = read_csv(scratch / "a.csv");
     REQUIRE(in.size() == out.size());
@@ -99,12 +100,12 @@ TEST_CASE("CSV to CSV loses nothing") {
     CHECK(same_bits(in.correlated[1].sensitivity, out.correlated[1].sensitivity));
 
     write_csv(in, scratch / "b.csv");
-    CHECK(contents(scratch / "a.csv") == contents(scratch / "b.csv"));
+    CHECK(read_file(scratch / "a.csv") == read_file(scratch / "b.csv"));
   }
 }
 
 TEST_CASE("A data set whose columns would be mistaken for others is not written") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   for (const std::string name : {"theta_i_deg", "u_r", "repeat", "", "two\nlines"}) {
     Dataset data;
     data.channels = single_channel(name);
@@ -120,12 +121,12 @@ TEST_CASE("A file that cannot be written is an error that names it") {
   data.channels = single_channel("value");
   data.angles = {{10_deg, 0_deg, 20_deg, 180_deg}};
   data.f = {{1.0}};
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   CHECK(faults_of([&] { write_csv(data, scratch / "no/such/folder/x.csv"); }).find("x.csv") != std::string::npos);
 }
 
 TEST_CASE("A file of ours is f already and is not converted twice") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   write_csv(rich_dataset(false), scratch / "a.csv");
   ReadOptions options;
   options.quantity = Quantity::f_cos;

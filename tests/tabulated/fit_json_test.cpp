@@ -5,22 +5,22 @@
 
 #include "brdf/analytic_brdf.hpp"
 #include "data-schemas/document.hpp"
-#include "tests/tabulated/scratch.hpp"
+#include "tests/tabulated/faults_text.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::test::contents;
 using gonio::test::faults_of;
-using gonio::test::Scratch;
+using gonio::test::TemporaryFolder;
 
 namespace {
 
 /// The example fit of data-schemas, changed by `change`.
 template <class Change>
 std::string example(Change&& change) {
-  Json document = parse_json(contents(std::string(GONIO_SOURCE_DIR) + "/data-schemas/examples/valid/converged.fit.json"), "example");
+  Json document = parse_json(read_file(std::string(GONIO_SOURCE_DIR) + "/data-schemas/examples/valid/converged.fit.json"), "example");
   change(document);
   return document.dump();
 }
@@ -45,7 +45,7 @@ const Direction wi = Direction::spherical(30_deg, 0_deg), wo = Direction::spheri
 }  // namespace
 
 TEST_CASE("A fit opens as the model with its values") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Opened opened = open_brdf(scratch.file("fit.json", example([](Json&) {})));
   CHECK(opened.format == "fit-json");
   CHECK(opened.simulated);
@@ -58,7 +58,7 @@ TEST_CASE("A fit opens as the model with its values") {
 }
 
 TEST_CASE("A parameter belongs to its channel, or without one to all") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Opened opened = open_brdf(
       scratch.file("fit.json", with_parameters({parameter("rho_d", "r", 0.1), parameter("rho_d", "g", 0.2), parameter("rho_s", "r", 0.3),
                                                 parameter("rho_s", "g", 0.4), parameter("s", Json(), 10)})));
@@ -68,7 +68,7 @@ TEST_CASE("A parameter belongs to its channel, or without one to all") {
 }
 
 TEST_CASE("A fit without usable values is refused with what is missing") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto refusal = [&](const std::string& text) { return faults_of([&] { open_brdf(scratch.file("fit.json", text)); }); };
   CHECK(refusal(with_parameters({parameter("rho_d", "r", 0.1), parameter("s", Json(), 10)})).find("no value of rho_s for channel r") !=
         std::string::npos);
@@ -82,7 +82,7 @@ TEST_CASE("A fit without usable values is refused with what is missing") {
 }
 
 TEST_CASE("A fit that did not converge opens and says so") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Opened opened = open_brdf(scratch.file("fit.json", example([](Json& document) {
                                                  document.set("status", "not_converged");
                                                  document.set("reason", "a ridge");
@@ -92,7 +92,7 @@ TEST_CASE("A fit that did not converge opens and says so") {
 }
 
 TEST_CASE("No damaged fit does more than raise an error") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const std::string whole = example([](Json&) {});
   std::mt19937 random(20260707);
   for (int round = 0; round < 1000; ++round) {

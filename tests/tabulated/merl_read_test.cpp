@@ -6,20 +6,21 @@
 
 #include "brdf/analytic_brdf.hpp"
 #include "tabulated/merl.hpp"
-#include "tests/tabulated/scratch.hpp"
+#include "tests/tabulated/faults_text.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::test::contents;
+using gonio::test::read_file;
 using gonio::test::faults_of;
-using gonio::test::Scratch;
+using gonio::test::TemporaryFolder;
 
 namespace {
 
 /// A table full of zeros; the file is sparse and costs no disk.
-std::filesystem::path zeros(const Scratch& scratch, const std::string& name, std::uintmax_t size = merl_file_size) {
+std::filesystem::path zeros(const TemporaryFolder& scratch, const std::string& name, std::uintmax_t size = merl_file_size) {
   const std::filesystem::path path = scratch.file(name, std::string("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", 12));
   std::filesystem::resize_file(path, size);
   return path;
@@ -38,7 +39,7 @@ void put(const std::filesystem::path& path, std::size_t plane, std::size_t cell,
 }  // namespace
 
 TEST_CASE("A truncated or oversized file is refused with the bytes found and wanted") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   for (const std::uintmax_t size : {1u, 11u, 12u, 1000000u, 34992011u, 34992013u, 69984012u}) {
     const std::string refused = faults_of([&] { open_brdf(zeros(scratch, "m.binary", size)); });
     CHECK(refused.find("m.binary|" + std::to_string(size) + " bytes|34992012 bytes") != std::string::npos);
@@ -46,7 +47,7 @@ TEST_CASE("A truncated or oversized file is refused with the bytes found and wan
 }
 
 TEST_CASE("Other dimensions are refused with the dimensions found and wanted") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto path = zeros(scratch, "m.binary");
   put(path, 8, std::string_view("\x68\x01", 2));
   CHECK(faults_of([&] { open_brdf(path); }).find("dimensions 90 x 90 x 360|dimensions 90 x 90 x 180") != std::string::npos);
@@ -60,7 +61,7 @@ TEST_CASE("Other dimensions are refused with the dimensions found and wanted") {
 }
 
 TEST_CASE("A cell with a negative channel is masked and counted; a number that is none is a fault with its cell") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto path = zeros(scratch, "m.binary");
   put(path, 1, 7, -0.5);
   put(path, 2, 7, -0.5);
@@ -74,7 +75,7 @@ TEST_CASE("A cell with a negative channel is masked and counted; a number that i
 }
 
 TEST_CASE("The blocks of an opened file point into the mapping and outlive the opening") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto path = zeros(scratch, "m.binary");
   put(path, 1, MerlGrid::index({3, 4, 5}), 1500.0);
   std::shared_ptr<const Observations> observations;
@@ -90,7 +91,7 @@ TEST_CASE("The blocks of an opened file point into the mapping and outlive the o
 }
 
 TEST_CASE("A damaged sidecar is refused, one without a node rule leaves the default") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const auto path = zeros(scratch, "m.binary");
   scratch.file("m.binary.json", "{\"node_rule\":\"middle\"}");
   CHECK(faults_of([&] { open_brdf(path); }).find("m.binary.json#/node_rule|'middle'|left or centre") != std::string::npos);
@@ -103,7 +104,7 @@ TEST_CASE("A damaged sidecar is refused, one without a node rule leaves the defa
 }
 
 TEST_CASE("No damaged header or length does more than raise an error") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   std::mt19937 random(20260704);
   const auto path = scratch / "m.binary";
   for (int round = 0; round < 1500; ++round) {

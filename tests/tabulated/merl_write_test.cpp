@@ -7,15 +7,15 @@
 #include "data-schemas/document.hpp"
 #include "tabulated/merl.hpp"
 #include "tests/random_directions.hpp"
-#include "tests/tabulated/scratch.hpp"
+#include "tests/tabulated/faults_text.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::test::contents;
 using gonio::test::faults_of;
-using gonio::test::Scratch;
+using gonio::test::TemporaryFolder;
 
 namespace {
 
@@ -66,9 +66,9 @@ class Awkward final : public Brdf {
 }  // namespace
 
 TEST_CASE("The file has MERL's size, header, scales and masks") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const MerlWriteResult result = write_merl(blinn_phong(), scratch / "m.binary", on(MerlNodes::left), "test", true);
-  const std::string bytes = contents(scratch / "m.binary");
+  const std::string bytes = read_file(scratch / "m.binary");
   REQUIRE(bytes.size() == 34992012);
   CHECK(bytes.substr(0, 12) == std::string("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0", 12));
   std::size_t wrong = 0, below = 0;
@@ -86,17 +86,17 @@ TEST_CASE("The file has MERL's size, header, scales and masks") {
 }
 
 TEST_CASE("Any number of threads writes the same bytes") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   write_merl(blinn_phong(), scratch / "one", on(MerlNodes::centre, 1), "test", false);
   write_merl(blinn_phong(), scratch / "three", on(MerlNodes::centre, 3), "test", false);
-  CHECK(contents(scratch / "one") == contents(scratch / "three"));
+  CHECK(read_file(scratch / "one") == read_file(scratch / "three"));
 }
 
 TEST_CASE("Written and read with the same node rule the model comes back; with the other rule it does not") {
   // Blinn-Phong is smooth in theta_h; the error is that of linear interpolation between 90 rows.
   constexpr double interpolation = 0.005, other_rule = 0.05;
   const AnalyticBrdf model = blinn_phong();
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   for (const MerlNodes nodes : {MerlNodes::left, MerlNodes::centre}) {
     const MerlNodes other = nodes == MerlNodes::left ? MerlNodes::centre : MerlNodes::left;
     write_merl(model, scratch / "m.binary", on(nodes), "test", false);
@@ -112,12 +112,12 @@ TEST_CASE("Written and read with the same node rule the model comes back; with t
 }
 
 TEST_CASE("A table written again from its own reading is the same file") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   for (const MerlNodes nodes : {MerlNodes::left, MerlNodes::centre}) {
     write_merl(blinn_phong(), scratch / "a", on(nodes), "test", false);
     const Opened read = open_merl(scratch / "a", {});
     write_merl(*read.brdf, scratch / "b", on(nodes), "test", false);
-    const std::string a = contents(scratch / "a"), b = contents(scratch / "b");
+    const std::string a = read_file(scratch / "a"), b = read_file(scratch / "b");
     // f = stored x scale and back rounds twice.
     double worst = 0;
     for (std::size_t c = 0; c < 3; ++c)
@@ -128,9 +128,9 @@ TEST_CASE("A table written again from its own reading is the same file") {
 }
 
 TEST_CASE("The sidecar says what the format cannot") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   write_merl(blinn_phong(), scratch / "m.binary", on(MerlNodes::centre), "a model", true);
-  const Json sidecar = parse_json(contents(scratch / "m.binary.json"), "sidecar");
+  const Json sidecar = parse_json(read_file(scratch / "m.binary.json"), "sidecar");
   CHECK(sidecar.at("node_rule").string() == "centre");
   CHECK(sidecar.at("unit").string() == "1/sr");
   CHECK(sidecar.at("source").string() == "a model");
@@ -141,7 +141,7 @@ TEST_CASE("The sidecar says what the format cannot") {
 }
 
 TEST_CASE("One channel fills all three planes; any other number than one or three is refused") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   write_merl(AnalyticBrdf("lambert", single_channel("value"), {{0.5}}), scratch / "m", on(MerlNodes::left), "test", false);
   const Opened read = open_merl(scratch / "m", {});
   const std::vector<double> f = read.brdf->eval(Direction::spherical(30_deg, 0_deg), Direction::spherical(40_deg, 100_deg));
@@ -156,7 +156,7 @@ TEST_CASE("One channel fills all three planes; any other number than one or thre
 }
 
 TEST_CASE("What the format cannot hold is masked and counted, never stored as a number") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const MerlWriteResult unknown =
       write_merl(Awkward(std::numeric_limits<double>::quiet_NaN()), scratch / "m", on(MerlNodes::left), "test", false);
   CHECK(unknown.unknown > 1000);
@@ -166,7 +166,7 @@ TEST_CASE("What the format cannot hold is masked and counted, never stored as a 
 }
 
 TEST_CASE("A failure leaves neither the file nor its sidecar, and an old pair as it was") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const double infinity = std::numeric_limits<double>::infinity();
   CHECK(faults_of([&] { write_merl(Awkward(infinity), scratch / "m", on(MerlNodes::left), "test", false); }).find("infinite") !=
         std::string::npos);
@@ -176,5 +176,5 @@ TEST_CASE("A failure leaves neither the file nor its sidecar, and an old pair as
   std::filesystem::create_directory(scratch / "folder");
   scratch.file("folder.json", "old");
   CHECK_FALSE(faults_of([&] { write_merl(blinn_phong(), scratch / "folder", on(MerlNodes::left), "test", false); }).empty());
-  CHECK(contents(scratch / "folder.json") == "old");
+  CHECK(read_file(scratch / "folder.json") == "old");
 }

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tabulated/open.hpp"
 
-#include "tests/tabulated/scratch.hpp"
+#include "tests/tabulated/faults_text.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
 using gonio::test::faults_of;
-using gonio::test::Scratch;
+using gonio::test::TemporaryFolder;
 
 TEST_CASE("A file is opened by what it holds, not by its name") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   const Opened opened = open_brdf(scratch.file("samples.bin", "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value\n30,0,40,180,1\n"));
   CHECK(opened.format == "csv");
   REQUIRE(opened.dataset);
@@ -22,9 +23,9 @@ TEST_CASE("A file is opened by what it holds, not by its name") {
 }
 
 TEST_CASE("What cannot be a BRDF is refused with what was found") {
-  const Scratch scratch;
+  const TemporaryFolder scratch;
   CHECK(faults_of([&] { open_brdf(scratch / "nothing"); }).find("no such file") != std::string::npos);
-  CHECK(faults_of([&] { open_brdf(scratch.folder()); }).find("not a file") != std::string::npos);
+  CHECK(faults_of([&] { open_brdf(scratch.path()); }).find("not a file") != std::string::npos);
   CHECK(faults_of([&] { open_brdf(scratch.file("empty", "")); }).find("an empty file") != std::string::npos);
   CHECK(faults_of([&] { open_brdf(scratch.file("noise", std::string(100, '\1'))); }).find("100 bytes of an unknown kind") !=
         std::string::npos);

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/tabulated/scratch.hpp"
+#include "tests/tabulated/faults_text.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 

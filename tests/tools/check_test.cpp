@@ -53,7 +53,7 @@ TEST_CASE("a model that reflects more than it receives fails the energy check") 
 }
 
 TEST_CASE("check finds asymmetry beyond the margin and exits 1, and none where there is none") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   test::write_file(folder / "fair.csv", pairs(0));
   test::write_file(folder / "lopsided.csv", pairs(0.05));
   const auto fair = run_gonio("check '" + (folder / "fair.csv").string() + "' --json");

@@ -11,7 +11,7 @@ using test::run_gonio;
 namespace {
 
 /// A noiseless Lambert-plus-lobe data set and its fit in `folder`.
-std::string make_fit(const test::Folder& folder) {
+std::string make_fit(const test::TemporaryFolder& folder) {
   std::string directions, rows = "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value\n";
   for (int ti = 0; ti <= 60; ti += 20)
     for (int to = 0; to <= 80; to += 4) directions += std::to_string(ti) + " 0 " + std::to_string(to) + " 180\n";
@@ -31,7 +31,7 @@ std::string make_fit(const test::Folder& folder) {
 }  // namespace
 
 TEST_CASE("a fit exported as MERL has the right size, reads back and fits to itself only with the nodes it was written with") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   const std::string fit = make_fit(folder), merl = (folder / "material.binary").string();
   REQUIRE(run_gonio("export '" + fit + "' --to merl --out '" + merl + "'").code == 0);
   CHECK(std::filesystem::file_size(merl) == 34992012);
@@ -49,7 +49,7 @@ TEST_CASE("a fit exported as MERL has the right size, reads back and fits to its
 }
 
 TEST_CASE("a truncated or oversized MERL file is refused with found and wanted bytes") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   const std::string fit = make_fit(folder), merl = (folder / "material.binary").string();
   REQUIRE(run_gonio("export '" + fit + "' --to merl --out '" + merl + "'").code == 0);
   for (const std::uintmax_t size : {std::uintmax_t{1000000}, std::uintmax_t{34992020}}) {

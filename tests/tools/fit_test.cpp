@@ -54,7 +54,7 @@ TEST_CASE("fit gives the published parameters of the vegetation data for every m
 }
 
 TEST_CASE("fit says when nothing can be fitted, and exits 1 only if it did not converge") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   std::string text = "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value,u_value\n";
   for (int theta = 0; theta < 80; theta += 5) text += "30,0," + std::to_string(theta) + ",180,0.1,0.001\n";
   test::write_file(folder / "flat.csv", text);
@@ -77,7 +77,7 @@ TEST_CASE("fit says when nothing can be fitted, and exits 1 only if it did not c
 }
 
 TEST_CASE("fit --out writes the document that open and eval read as a model") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   std::string text = "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value\n";
   const std::string lambert = "0.1";
   for (int theta = 0; theta < 80; theta += 5) text += "30,0," + std::to_string(theta) + ",180," + lambert + "\n";

@@ -8,7 +8,7 @@ using namespace gonio;
 using test::run_gonio;
 
 TEST_CASE("import turns a mapped file into ours and counts what is no measurement") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   test::write_file(folder / "in.txt",
                    "# instrument file\n30 0 40 180 0.5\n30 0 50 180 nan\n30 0 60 180 -1\n30 0 95 180 0.2\n30 0 90 180 0.25\n");
   const auto outcome =
@@ -28,7 +28,7 @@ TEST_CASE("import turns a mapped file into ours and counts what is no measuremen
 }
 
 TEST_CASE("a CSV with text, a missing column or a wrong number of columns is refused with every line named, and nothing is written") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   test::write_file(folder / "bad.csv",
                    "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value\n30,0,40,180,0.5\n30,0,x,180,0.5\n30,0,40,180\n30,0,40,180,inf\n");
   const auto bad = run_gonio("import '" + (folder / "bad.csv").string() + "' --out '" + (folder / "out.csv").string() + "'");
@@ -42,7 +42,7 @@ TEST_CASE("a CSV with text, a missing column or a wrong number of columns is ref
 }
 
 TEST_CASE("import, EXR and back keep the samples") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   test::write_file(folder / "in.csv",
                    "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value,u_value\n30,0,40,180,0.5,0.01\n30,0,50,180,0.25,0.005\n60,0,50,180,0."
                    "125,0.0025\n");

@@ -8,7 +8,7 @@ using namespace gonio;
 using test::run_gonio;
 
 TEST_CASE("info knows a bench, a plan and samples by content") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   test::write_file(folder / "a", std::string(example_text("demo.bench.json")));
   test::write_file(folder / "b", std::string(example_text("demo.plan.json")));
   test::write_file(folder / "c", "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value\n30,0,40,180,0.5\n");
@@ -20,7 +20,7 @@ TEST_CASE("info knows a bench, a plan and samples by content") {
 }
 
 TEST_CASE("info refuses what it does not know") {
-  const test::Folder folder;
+  const test::TemporaryFolder folder;
   test::write_file(folder / "noise", std::string("\x01\x02\x03\x00garbage", 11));
   CHECK(run_gonio("info '" + (folder / "noise").string() + "'").code == 3);
   test::write_file(folder / "other.json", "{\"a\": 1}");
