@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "brdf/lobe_geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gonio {
@@ -20,6 +21,18 @@ LobeGeometry lobe_geometry(const GonioAngles& angles) noexcept {
   g.log_cos_h = hz > 0 ? -0.5 * std::log1p((sin_difference * sin_difference + 4 * off_plane) / (hz * hz)) : LobeGeometry::no_lobe;
   const double q = gap.sin() * gap.sin() + off_plane;  // sin²(psi/2)
   g.log_cos_psi = q < 0.5 ? std::log1p(-2 * q) : LobeGeometry::no_lobe;
+  // sin²(half the angle between wi and wo), the azimuths compared with 0 instead of 180°
+  const double q_retro = gap.sin() * gap.sin() + sines * half_delta.sin() * half_delta.sin();
+  g.log_cos_retro = q_retro < 0.5 ? std::log1p(-2 * q_retro) : LobeGeometry::no_lobe;
+  const double beta2 = sin_difference * sin_difference + 4 * off_plane;
+  g.beta_gap = std::sqrt(beta2);
+  g.cos_d = std::min(1.0, 0.5 * std::sqrt(beta2 + hz * hz));
+  if (hz > 0) {
+    g.slope_x = (a.sin() * angles.phi_i.cos() + b.sin() * angles.phi_o.cos()) / hz;
+    g.slope_y = (a.sin() * angles.phi_i.sin() + b.sin() * angles.phi_o.sin()) / hz;
+  }
+  g.product_x = sines * (angles.phi_i.cos() * angles.phi_o.cos());
+  g.product_y = sines * (angles.phi_i.sin() * angles.phi_o.sin());
   return g;
 }
 
@@ -39,6 +52,18 @@ LobeGeometry lobe_geometry(const Direction& wi, const Direction& wo) noexcept {
     g.log_cos_psi = half_sin2 < 0.25 ? std::log1p(-2 * half_sin2) : std::log(cos_psi);
   else
     g.log_cos_psi = LobeGeometry::no_lobe;
+  g.product_x = wi.x() * wo.x();
+  g.product_y = wi.y() * wo.y();
+  const double ex = wi.x() - wo.x(), ey = wi.y() - wo.y();
+  const double half_sin2_retro = (ex * ex + ey * ey + dz * dz) / 4, cos_retro = wi.z() * wo.z() + (g.product_x + g.product_y);
+  if (cos_retro > 0)
+    g.log_cos_retro = half_sin2_retro < 0.25 ? std::log1p(-2 * half_sin2_retro) : std::log(cos_retro);
+  else
+    g.log_cos_retro = LobeGeometry::no_lobe;
+  const double beta2 = hx * hx + hy * hy;
+  g.beta_gap = std::sqrt(beta2);
+  g.cos_d = std::min(1.0, 0.5 * std::sqrt(beta2 + hz * hz));
+  if (hz > 0) g.slope_x = hx / hz, g.slope_y = hy / hz;
   return g;
 }
 

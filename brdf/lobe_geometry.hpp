@@ -8,14 +8,20 @@
 
 namespace gonio {
 
-/// What the Phong family needs of a pair of directions. Logarithms of cosines, because cos^s is exp(s · log cos): exact near the
-/// peak for every s, and its derivative in s is finite everywhere. `no_lobe` marks a cosine <= 0: the lobe is 0, at s = 0 too.
+/// What the lobe models need of a pair of directions, all of it unchanged to the last bit when wi and wo are exchanged (cos_i and cos_o
+/// change places). Logarithms of cosines, because cos^s is exp(s · log cos): exact near the peak for every s, and its derivative in s is
+/// finite everywhere. `no_lobe` marks a cosine <= 0: the lobe is 0, at s = 0 too.
 struct LobeGeometry {
   static constexpr double no_lobe = -std::numeric_limits<double>::infinity();
 
-  double cos_i = 1, cos_o = 1;  ///< cosines of the zenith angles; <= 0 below the horizon
-  double log_cos_h = 0;         ///< ln cos theta_h, half vector against the normal
-  double log_cos_psi = 0;       ///< ln cos psi, outgoing direction against the mirror direction of wi
+  double cos_i = 1, cos_o = 1;          ///< cosines of the zenith angles; <= 0 below the horizon
+  double log_cos_h = 0;                 ///< ln cos theta_h, half vector against the normal
+  double log_cos_psi = 0;               ///< ln cos psi, outgoing direction against the mirror direction of wi
+  double log_cos_retro = 0;             ///< ln cos of the angle between wi and wo
+  double cos_d = 1;                     ///< cos theta_d: wi, or wo, against the half vector
+  double slope_x = 0, slope_y = 0;      ///< tan theta_h cos phi_h and tan theta_h sin phi_h; 0 where log_cos_h is no_lobe
+  double product_x = 0, product_y = 0;  ///< wi.x wo.x and wi.y wo.y
+  double beta_gap = 0;                  ///< |β - β0|: wo against the mirrored wi, both projected on the surface; also |wi + wo| there
 
   bool above_horizon() const noexcept { return cos_i > 0 && cos_o > 0; }
 };

@@ -14,37 +14,52 @@
 namespace gonio {
 
 /// One parameter of a model. Linear parameters multiply a basis function, are >= 0 and are fitted per channel; nonlinear ones are
-/// shared by all channels unless told otherwise, and are scanned on a logarithmic axis between `lower` and `upper`.
+/// shared by all channels unless told otherwise and are scanned, on a logarithmic or a linear axis.
 struct Parameter {
+  enum class Axis { logarithmic, linear };
+
   std::string_view name;
   std::string_view unit;
-  double lower, upper;
+  double lower, upper;  ///< what the model is defined for
   bool linear;
+  double scan_low = 0, scan_high = 0;  ///< where the global scan of a nonlinear parameter looks
+  Axis axis = Axis::logarithmic;       ///< of the scan and of the intervals
+  double example = 0.3;                ///< a value met in practice: for tests over the list, demos and help
 };
 
 /// The geometry a model depends on apart from the horizon: what lets the fitter collapse data without loss.
 enum class DependsOn { nothing, theta_h, psi, all };
 
 struct ModelProperties {
-  bool reciprocal;  ///< f(wi, wo) = f(wo, wi) exactly
-  bool isotropic;   ///< depends on phi_o - phi_i only
-  bool bilateral;   ///< symmetric under phi -> -phi
+  bool reciprocal;      ///< f(wi, wo) = f(wo, wi) exactly
+  bool isotropic;       ///< depends on phi_o - phi_i only
+  bool bilateral;       ///< symmetric under phi -> -phi
+  bool bounded = true;  ///< the directional albedo stays finite up to grazing incidence
 };
 
 /// An analytic BRDF model: f = Σ_k linear_k · basis_k(geometry; nonlinear), in 1/sr, cosine not included.
 ///
-/// `parameters` lists the linear parameters first, in the order of the basis. `basis<T>` takes the geometry in double and the
-/// nonlinear parameters in T (double or an automatic-differentiation type). `albedo` gives the directional albedo of each basis
-/// function at an incidence, `albedo_bound` its supremum over all incidences: energy is conserved iff Σ linear_k · bound_k <= 1
-/// (all bounds are reached at the same incidence, the normal, so the condition is exact).
+/// `parameters` lists the linear parameters first, in the order of the basis; the first is always `rho_d` and its basis function the
+/// diffuse part (1/π unless the model is one of diffuse reflection), so that sums of models share it. `basis<T>` takes the geometry in
+/// double and the nonlinear parameters in T (double or an automatic-differentiation type).
+///
+/// Optional: `albedo(theta, nonlinear, out)`, the directional albedo of each basis function in closed form, and with it
+/// `albedo_bound(nonlinear, out)`, its supremum over all incidences, reached at the normal by every basis function, so that energy is
+/// conserved iff Σ linear_k · bound_k <= 1. Models without them are integrated numerically.
 template <class M>
-concept AnalyticModel = requires(const LobeGeometry& g, const double* nonlinear, double* out, Angle theta) {
+concept AnalyticModel = requires(const LobeGeometry& g, const double* nonlinear, double* out) {
   { M::name } -> std::convertible_to<std::string_view>;
   { M::citation } -> std::convertible_to<std::string_view>;
   { M::parameters.size() } -> std::convertible_to<std::size_t>;
   { M::depends_on } -> std::convertible_to<DependsOn>;
   { M::properties } -> std::convertible_to<ModelProperties>;
   M::basis(g, nonlinear, out);
+  requires M::parameters[0].name == "rho_d" && M::parameters[0].linear;
+};
+
+/// A model that knows its directional albedo in closed form.
+template <class M>
+concept ClosedAlbedo = AnalyticModel<M> && requires(const double* nonlinear, double* out, Angle theta) {
   M::albedo(theta, nonlinear, out);
   M::albedo_bound(nonlinear, out);
 };

@@ -36,6 +36,8 @@ void require_usable(const FitOptions& options, const ModelInfo& info) {
   }
   if (!(options.confidence > 0 && options.confidence < 1))
     faults.push_back({"confidence", std::to_string(options.confidence), "a number between 0 and 1"});
+  if (info.nonlinear_count() > 1)
+    faults.push_back({"model", std::to_string(info.nonlinear_count()) + " nonlinear parameters", "one at most"});
   if (!faults.empty()) throw Error(ErrorKind::usage, "the fit of model '" + options.model + "' cannot be set up", faults);
 }
 
@@ -49,7 +51,7 @@ SolveOptions solve_options(const FitOptions& options, const ModelKernel& kernel,
   std::vector<double> linear;
   for (std::size_t k = 0; k < kernel.linear; ++k) linear.push_back(held(kernel.info->parameters[k]));
   out.held.assign(channels, linear);
-  out.held_s = kernel.has_exponent ? held(kernel.info->parameters[kernel.linear]) : free;
+  out.held_s = kernel.nonlinear > 0 ? held(kernel.info->parameters[kernel.linear]) : free;
   out.confidence = options.confidence;
   out.threads = options.threads;
   return out;
@@ -68,7 +70,7 @@ FittedParameter fitted(const Parameter& parameter, const Estimate& estimate, std
 }
 
 void add_other_minima(FitResult& result, const Solution& solution, const ModelKernel& kernel) {
-  if (!kernel.has_exponent) return;
+  if (kernel.nonlinear == 0) return;
   for (const OtherSolution& other : solution.others)
     result.other_minima.push_back({{other.s}, other.linear, other.cost, other.cost / solution.cost});
 }
@@ -89,7 +91,7 @@ void assemble(FitResult& result, const std::vector<Solution>& solutions, const T
     }
     for (std::size_t c = 0; c < solution.linear.size(); ++c, ++channel) {
       std::vector<double> values = solution.linear[c];
-      if (kernel.has_exponent) values.push_back(solution.s);
+      if (kernel.nonlinear > 0) values.push_back(solution.s);
       result.values.push_back(std::move(values));
       for (std::size_t k = 0; k < kernel.linear; ++k)
         result.parameters.push_back(fitted(parameters[k], solution.linear_estimate[c][k], channel));

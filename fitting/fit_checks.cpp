@@ -25,21 +25,20 @@ Check energy_bound(const FitResult& result, const ModelKernel& kernel, const std
   check.n = result.values.size();
   double worst = -1;
   for (std::size_t c = 0; c < result.values.size(); ++c) {
-    const std::vector<double>& values = result.values[c];
-    const double s = kernel.has_exponent ? values.back() : 1;
-    std::vector<double> bound(kernel.linear), above(kernel.linear), below(kernel.linear);
-    kernel.albedo_bound(s, bound.data());
-    const double step = 1e-5 * s;
-    kernel.albedo_bound(s + step, above.data());
-    kernel.albedo_bound(s - step, below.data());
-    double albedo = 0, by_s = 0;
-    std::vector<double> gradient(kernel.linear + 1);
-    for (std::size_t k = 0; k < kernel.linear; ++k) {
-      albedo += values[k] * bound[k];
-      if (step > 0) by_s += values[k] * (above[k] - below[k]) / (2 * step);
-      gradient[k] = bound[k];
+    std::vector<double> values = result.values[c], gradient(values.size()), above(kernel.linear), below(kernel.linear);
+    const double albedo = kernel.info->albedo_bound(values.data());
+    const auto [theta, phi] = kernel.info->brightest_incidence(values.data());
+    kernel.info->albedo(theta, phi, values.data() + kernel.linear, gradient.data());
+    for (std::size_t j = kernel.linear; j < values.size(); ++j) {
+      const double at = values[j], step = 1e-5 * std::abs(at);
+      values[j] = at + step;
+      kernel.info->albedo(theta, phi, values.data() + kernel.linear, above.data());
+      values[j] = at - step;
+      kernel.info->albedo(theta, phi, values.data() + kernel.linear, below.data());
+      values[j] = at;
+      if (!(step > 0)) continue;
+      for (std::size_t k = 0; k < kernel.linear; ++k) gradient[j] += values[k] * (above[k] - below[k]) / (2 * step);
     }
-    gradient[kernel.linear] = by_s;
     if (albedo <= worst) continue;
     worst = albedo;
     // A parameter that is fixed or at its bound has no variance to add.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fitting/fit_errors.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -29,8 +30,9 @@ Sums block_sums(const Observations& observations, std::size_t index, std::size_t
   std::vector<double> columns(kernel.linear * geometry.size());
   Sums sums;
   for (std::size_t c = 0; c < values.size(); ++c) {
-    if (c == 0 || (kernel.has_exponent && values[c].back() != values[c - 1].back()))
-      kernel.basis(geometry, values[c].back(), columns.data(), geometry.size());
+    const auto nonlinear = std::span(values[c]).subspan(kernel.linear);
+    if (c == 0 || !std::ranges::equal(nonlinear, std::span(values[c - 1]).subspan(kernel.linear)))
+      kernel.basis(geometry, nonlinear.data(), columns.data(), geometry.size());
     for (std::size_t j = 0; j < samples.size(); ++j) {
       const double f = block.f[c][samples[j]], cos_i = geometry[j].cos_i;
       if (!std::isfinite(f) || cos_i < 0 || geometry[j].cos_o < 0) continue;

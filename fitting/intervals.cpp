@@ -89,10 +89,10 @@ struct Linearised {
 
 Linearised linearise(const Solution& solution, const Terms& terms, const SolveOptions& options, const CorrelatedComponent* component) {
   Linearised out;
-  out.with_s = terms.kernel.has_exponent && std::isnan(options.held_s);
+  out.with_s = terms.kernel.nonlinear > 0 && std::isnan(options.held_s);
   const std::size_t rows = terms.rows(), linear = terms.kernel.linear;
   std::vector<double> basis(linear * rows), slopes(linear * rows);
-  terms.kernel.basis_and_slope(terms.geometry, solution.s, basis.data(), slopes.data(), rows);
+  terms.kernel.basis_and_slopes(terms.geometry, &solution.s, basis.data(), slopes.data(), rows);
   for (std::size_t c = 0; c < terms.channel.size(); ++c) {
     const ChannelTerms& data = terms.channel[c];
     std::vector<std::size_t> columns;
@@ -221,7 +221,7 @@ Estimate fixed_at(double value) {
 void estimate(Solution& solution, const Terms& terms, const Profile& profile, const std::vector<ProfilePoint>& scan,
               const std::vector<Minimum>& minima, const SolveOptions& options, const std::vector<CorrelatedComponent>& correlated) {
   const std::size_t linear = terms.kernel.linear, channels = terms.channel.size();
-  const bool free_s = terms.kernel.has_exponent && std::isnan(options.held_s);
+  const bool free_s = terms.kernel.nonlinear > 0 && std::isnan(options.held_s);
   double count = 0, size_of_terms = 0, free_parameters = free_s ? 1 : 0;
   for (std::size_t c = 0; c < channels; ++c) {
     const ChannelTerms& data = terms.channel[c];
@@ -263,7 +263,7 @@ void estimate(Solution& solution, const Terms& terms, const Profile& profile, co
     if (log_s.low) log_s.low = std::exp(*log_s.low);
     if (log_s.high) log_s.high = std::exp(*log_s.high);
     solution.s_estimate = log_s;
-  } else if (terms.kernel.has_exponent) {
+  } else if (terms.kernel.nonlinear > 0) {
     solution.s_estimate = fixed_at(options.held_s);
   }
 

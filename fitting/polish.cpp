@@ -36,7 +36,7 @@ bool residuals(const Terms& terms, std::size_t channel, std::size_t begin, std::
                double* by_linear, double* by_s) {
   const std::size_t rows = end - begin, count = terms.kernel.linear;
   std::vector<double> columns(count * rows), slopes(count * rows);
-  terms.kernel.basis_and_slope(std::span(terms.geometry).subspan(begin, rows), s, columns.data(), slopes.data(), rows);
+  terms.kernel.basis_and_slopes(std::span(terms.geometry).subspan(begin, rows), &s, columns.data(), slopes.data(), rows);
   const ChannelTerms& data = terms.channel[channel];
   for (std::size_t j = 0; j < rows; ++j) {
     const std::size_t row = begin + j;
@@ -78,7 +78,7 @@ Polished polish(const Terms& terms, const std::vector<std::vector<double>>& star
     else if (!constant.empty())
       problem.SetManifold(linear[c].data(), new ceres::SubsetManifold(static_cast<int>(terms.kernel.linear), constant));
   }
-  if (hold_s || !terms.kernel.has_exponent) {
+  if (hold_s || terms.kernel.nonlinear == 0) {
     problem.SetParameterBlockConstant(&exponent);
   } else {
     const Parameter& bounds = terms.kernel.info->parameters[terms.kernel.linear];

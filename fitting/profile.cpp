@@ -157,7 +157,7 @@ ChannelPart Profile::channel_at(std::size_t channel, const std::vector<double>& 
 
 ProfilePoint Profile::at(double s) const {
   std::vector<double> columns(terms_.kernel.linear * terms_.rows());
-  terms_.kernel.basis(terms_.geometry, s, columns.data(), terms_.rows());
+  terms_.kernel.basis(terms_.geometry, &s, columns.data(), terms_.rows());
   ProfilePoint point;
   point.s = s;
   for (std::size_t c = 0; c < terms_.channel.size(); ++c) {

@@ -19,7 +19,7 @@ std::vector<std::vector<double>> linear_of(const ProfilePoint& point) {
 }  // namespace
 
 Solution solve(Terms& terms, const SolveOptions& options, const std::vector<CorrelatedComponent>& correlated) {
-  const bool scanned = terms.kernel.has_exponent && std::isnan(options.held_s);
+  const bool scanned = terms.kernel.nonlinear > 0 && std::isnan(options.held_s);
   Solution solution;
   for (int round = 0;; ++round) {
     const Profile profile(terms, options.held);
@@ -29,7 +29,7 @@ Solution solve(Terms& terms, const SolveOptions& options, const std::vector<Corr
       scan = profile.scan(options.threads);
       minima = profile.minima(scan);
     } else {
-      minima.push_back({0, profile.at(terms.kernel.has_exponent ? options.held_s : 1)});
+      minima.push_back({0, profile.at(terms.kernel.nonlinear > 0 ? options.held_s : 1)});
     }
     if (!std::isfinite(minima.front().point.cost)) {
       solution.reason = "the cost is not finite anywhere on the scan";

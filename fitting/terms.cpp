@@ -158,7 +158,7 @@ bool reweight(Terms& terms, const std::vector<std::vector<double>>& linear, doub
   if (!terms.weighted || terms.collapsed) return false;
   const std::size_t rows = terms.rows();
   std::vector<double> columns(terms.kernel.linear * rows);
-  terms.kernel.basis(terms.geometry, s, columns.data(), rows);
+  terms.kernel.basis(terms.geometry, &s, columns.data(), rows);
   bool changed = false;
   for (std::size_t c = 0; c < terms.channel.size(); ++c) {
     ChannelTerms& channel = terms.channel[c];

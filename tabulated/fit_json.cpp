@@ -17,12 +17,6 @@
 namespace gonio::tabulated {
 namespace {
 
-const ModelInfo* model_named(const std::string& name) {
-  const auto& models = model_infos();
-  const auto found = std::find_if(models.begin(), models.end(), [&](const ModelInfo& model) { return model.name == name; });
-  return found == models.end() ? nullptr : &*found;
-}
-
 Channels channels_of(const Json& document) {
   std::vector<std::string> names;
   const auto add = [&](const Json& name) {
@@ -68,8 +62,8 @@ Opened open_fit_json(const std::filesystem::path& path, const ReadOptions&) {
   const auto where = [&](const std::string& pointer) { return fmt::format("{}#/{}", path.string(), pointer); };
   const std::string &model_name = document.at("model").string(), &status = document.at("status").string();
   FaultList faults(path.string());
-  const ModelInfo* model = model_named(model_name);
-  if (model == nullptr) faults.add(where("model"), excerpt(model_name), fmt::format("one of {}", list_of_models()));
+  const ModelInfo* model = is_model(model_name) ? &model_info(model_name) : nullptr;
+  if (model == nullptr) faults.add(where("model"), excerpt(model_name), fmt::format("one of {}, or a sum a+b of them", list_of_models()));
   if (status == "no_usable_data" || status == "failed") faults.add(where("status"), excerpt(status), "a fit that has values");
   faults.raise();
 

@@ -88,9 +88,7 @@ tabulated::Opened model_source(const std::string& model, const std::vector<std::
 }
 
 tabulated::Opened open_source(const std::string& source, const std::vector<std::string>& parameters, const ReadFlags& flags) {
-  const auto& models = model_infos();
-  if (std::any_of(models.begin(), models.end(), [&](const ModelInfo& info) { return info.name == source; }))
-    return model_source(source, parameters);
+  if (is_model(source)) return model_source(source, parameters);
   if (!parameters.empty())
     throw Error(ErrorKind::usage, {"--param", "parameters for the file '" + source + "'", "--param only with a model's name"});
   return tabulated::open_brdf(source, flags.options());

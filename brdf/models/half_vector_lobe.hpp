@@ -15,7 +15,7 @@ namespace gonio {
 template <class Model>
 struct HalfVectorLobe {
   static constexpr std::array<Parameter, 3> parameters{
-      {{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1", 0, 1e6, true}, {"s", "1", 0, 1e9, false}}};
+      {{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1", 0, 1e6, true}, {"s", "1", 0, 1e9, false, 1e-3, 1e9, Parameter::Axis::logarithmic, 40}}};
   static constexpr DependsOn depends_on = DependsOn::theta_h;
   static constexpr ModelProperties properties{true, true, true};
 

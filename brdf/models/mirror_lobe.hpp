@@ -16,7 +16,9 @@ namespace gonio {
 template <class Model>
 struct MirrorLobe {
   static constexpr std::array<Parameter, 3> parameters_with(std::string_view rho_s_unit) {
-    return {{{"rho_d", "1", 0, 1e6, true}, {"rho_s", rho_s_unit, 0, 1e6, true}, {"s", "1", 0, 1e9, false}}};
+    return {{{"rho_d", "1", 0, 1e6, true},
+             {"rho_s", rho_s_unit, 0, 1e6, true},
+             {"s", "1", 0, 1e9, false, 1e-3, 1e9, Parameter::Axis::logarithmic, 40}}};
   }
   static constexpr DependsOn depends_on = DependsOn::psi;
   static constexpr ModelProperties properties{true, true, true};

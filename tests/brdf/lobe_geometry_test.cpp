@@ -58,3 +58,31 @@ TEST_CASE("there is no lobe where its cosine is not positive") {
   CHECK(lobe_geometry(GonioAngles{60_deg, 0_deg, 60_deg, 0_deg}).log_cos_psi == LobeGeometry::no_lobe);
   CHECK(lobe_geometry(GonioAngles{90_deg, 0_deg, 90_deg, 90_deg}).log_cos_h == LobeGeometry::no_lobe);
 }
+
+TEST_CASE("every quantity of the geometry agrees from angles and from vectors, and does not change when wi and wo are exchanged") {
+  test::Random random(test::seed);
+  for (int k = 0; k < 2000; ++k) {
+    const GonioAngles a = test::gonio_pair(random);
+    const Direction wi = a.wi(), wo = a.wo();
+    const LobeGeometry x = lobe_geometry(a), y = lobe_geometry(wi, wo), z = lobe_geometry(wo, wi);
+    if (!x.above_horizon()) continue;
+    const double hz = x.cos_i + x.cos_o;
+    CHECK(x.cos_d == Approx(y.cos_d).epsilon(1e-13));
+    CHECK(x.beta_gap == Approx(y.beta_gap).margin(1e-13));
+    CHECK(x.slope_x * hz == Approx(y.slope_x * hz).margin(1e-13));
+    CHECK(x.slope_y * hz == Approx(y.slope_y * hz).margin(1e-13));
+    CHECK(x.product_x == Approx(y.product_x).margin(1e-13));
+    CHECK(x.product_y == Approx(y.product_y).margin(1e-13));
+    // Far from 90°, where the logarithm has no digits left.
+    if (x.log_cos_retro > -3 || y.log_cos_retro > -3) CHECK(x.log_cos_retro == Approx(y.log_cos_retro).epsilon(1e-11).margin(1e-13));
+    const bool same = y.cos_d == z.cos_d && y.beta_gap == z.beta_gap && y.slope_x == z.slope_x && y.slope_y == z.slope_y &&
+                      y.product_x == z.product_x && y.product_y == z.product_y && y.log_cos_retro == z.log_cos_retro;
+    CHECK(same);
+  }
+}
+
+TEST_CASE("the retro-reflection angle keeps its digits near 0") {
+  const double offset_deg = 1e-6, rad = offset_deg * 3.14159265358979323846 / 180;
+  const LobeGeometry g = lobe_geometry(GonioAngles{40_deg, 10_deg, degrees(40 + offset_deg), 10_deg});
+  CHECK(g.log_cos_retro == Approx(-rad * rad / 2).epsilon(1e-7));
+}
