@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What keeps a few wrong readings from moving a fit: losses, the limit beyond which a reading is wrong, and robust means.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace gonio::fitting {
+
+/// automatic  least squares unless the residuals of a robust start show isolated outliers; those are left out and listed
+/// none       least squares
+/// huber      weight min(1, k/|z|), k = 1.345: 95 % efficient on normal noise (Huber 1964)
+/// cauchy     weight 1/(1 + (z/k)²), k = 2.385: as efficient, and gross outliers lose all influence
+enum class Robust { automatic, none, huber, cauchy };
+const char* name(Robust robust) noexcept;
+std::optional<Robust> robust_named(std::string_view text);
+
+/// The weight of a standardised residual in iteratively re-weighted least squares; 1 for `none` and `automatic`.
+double loss_weight(Robust loss, double z) noexcept;
+
+/// The |z| that one of `n` normal residuals exceeds with a probability of 0.1 %, the two-sided Bonferroni limit: 5.5 for 30 000.
+double outlier_limit(std::size_t n) noexcept;
+
+/// Median of |z|; 0.674 for standard normal residuals. Reorders its argument; NaN if it is empty.
+double median_of(std::span<double> values) noexcept;
+
+/// Whether outliers stand in runs: more than half of them lie beside another one in the order of the samples. A model that does not
+/// fit leaves runs, wrong readings stand alone. `samples` ascending.
+bool in_runs(std::span<const std::size_t> samples) noexcept;
+
+/// Readings of one quantity with normal noise, a few of them wrong.
+struct RobustMean {
+  double mean = 0;
+  double within = 0;                  ///< Σ weight (value - mean)², scaled so that within/(count - 1) estimates the variance
+  std::size_t count = 0;              ///< values not rejected
+  std::vector<std::size_t> outliers;  ///< their numbers in `values`, ascending
+  double scale = 0;                   ///< standard deviation of the good ones
+};
+
+/// Whether plain sums over the values may be trusted: no value lies further from a median than the limit allows, judged by an even
+/// stride of at most 129 of them; costs one pass. False for wrong readings, and where the spread is far from normal.
+bool looks_clean(std::span<const double> values);
+
+/// Median and median deviation, then location and scale together (Huber's proposal 2, k = 2), then:
+///   automatic  the mean of all values within the outlier limit, unless the others stand in runs
+///   huber, cauchy  the mean with that loss
+/// `scratch` is used as working space.
+RobustMean robust_mean(std::span<const double> values, Robust loss, std::vector<double>& scratch);
+
+}  // namespace gonio::fitting
