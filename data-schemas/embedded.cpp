@@ -43,6 +43,7 @@ const char* name(Schema schema) noexcept {
     case Schema::plan: return "plan";
     case Schema::fit: return "fit";
     case Schema::checks: return "checks";
+    case Schema::tradeoff: return "tradeoff";
   }
   return "";
 }

@@ -9,10 +9,10 @@
 namespace gonio {
 
 /// Which schema of data-schemas/*.schema.json a document has to meet.
-enum class Schema { bench, axis_profile, plan, fit, checks };
-constexpr std::size_t schema_count = 5;
+enum class Schema { bench, axis_profile, plan, fit, checks, tradeoff };
+constexpr std::size_t schema_count = 6;
 
-/// `bench`, `axis-profile`, `plan`, `fit` or `checks`: the first part of the schema's file name, and the middle part of its examples'.
+/// `bench`, `axis-profile`, `plan`, `fit`, `checks` or `tradeoff`: the first part of the schema's file name, and the middle part of its examples'.
 const char* name(Schema schema) noexcept;
 
 /// The text of a schema.

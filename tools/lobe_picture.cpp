@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "brdf/error.hpp"
+#include "tools/gnuplot.hpp"
 
 namespace gonio::tools {
 namespace {
@@ -47,12 +46,6 @@ std::map<int, std::vector<Point>> points_in_plane(const Dataset& samples, const 
   return out;
 }
 
-std::string quoted(const std::filesystem::path& path) {
-  std::string out = "'";
-  for (const char c : path.string()) out += c == '\'' ? std::string("''") : std::string(1, c);
-  return out + "'";
-}
-
 std::string script(const std::map<int, std::vector<Point>>& in_plane, const Dataset& samples, const AnalyticBrdf& fitted,
                    const std::filesystem::path& png) {
   static const char* const colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"};
@@ -78,7 +71,8 @@ std::string script(const std::map<int, std::vector<Point>>& in_plane, const Data
   std::string parameters;
   for (std::size_t k = 0; k < fitted.values()[0].size(); ++k)
     parameters += fmt::format("  {} = {:.4g}", fitted.model().parameters[k].name, fitted.values()[0][k]);
-  text += fmt::format("set terminal pngcairo size 1400,1000 font 'DejaVu Sans,13' background '#ffffff'\nset output {}\n", quoted(png));
+  text += fmt::format("set terminal pngcairo size 1400,1000 font 'DejaVu Sans,13' background '#ffffff'\nset output {}\n",
+                      gnuplot_quoted(png.string()));
   text +=
       "set multiplot\nset lmargin 11\nset rmargin 3\nset grid lc rgb '#dddddd' lt 1\nset xrange [-90:90]\nset xtics 15\nset border lc rgb "
       "'#444444'\nset style fill transparent solid 0.3\n";
@@ -113,19 +107,7 @@ std::string script(const std::map<int, std::vector<Point>>& in_plane, const Data
 void draw_lobe(const Dataset& samples, const AnalyticBrdf& fitted, const std::filesystem::path& png) {
   const auto in_plane = points_in_plane(samples, fitted);
   if (in_plane.empty()) throw Error(ErrorKind::input, {png.string(), "no sample in the plane of incidence", "at least one"});
-  std::filesystem::path part = png;
-  part += ".part";
-  const std::string text = script(in_plane, samples, fitted, part);
-  FILE* const gnuplot = popen("gnuplot >/dev/null 2>&1", "w");
-  const bool written = gnuplot != nullptr && std::fwrite(text.data(), 1, text.size(), gnuplot) == text.size();
-  const int status = gnuplot != nullptr ? pclose(gnuplot) : -1;
-  std::error_code ignored;
-  if (!written || status != 0 || !std::filesystem::exists(part)) {
-    std::filesystem::remove(part, ignored);
-    throw Error(ErrorKind::input,
-                {png.string(), "gnuplot did not draw it", "the program gnuplot (package gnuplot-nox, installed by tools/setup)"});
-  }
-  std::filesystem::rename(part, png);
+  draw_with_gnuplot(png, [&](const std::filesystem::path& output) { return script(in_plane, samples, fitted, output); });
 }
 
 }  // namespace gonio::tools

@@ -25,7 +25,7 @@ struct Entry {
   Verb run;
 };
 
-constexpr std::array<Entry, 11> verbs{{
+constexpr std::array<Entry, 12> verbs{{
     {"demo", "the whole chain on the embedded simulated bench: sweep, reduce, fit, check, export, picture", demo_verb},
     {"plan", "what a sweep would do: reachability, order, predicted time; moves nothing", plan_verb},
     {"serve", "emulate a bench's devices until stopped", serve_verb},
@@ -37,6 +37,7 @@ constexpr std::array<Entry, 11> verbs{{
     {"export", "table or fit -> a renderer's format", export_verb},
     {"eval", "values of a model or a BRDF file at directions from standard input", eval_verb},
     {"info", "what a file is", info_verb},
+    {"tradeoff", "what accuracy costs in time: table, plot, advice", tradeoff_verb},
 }};
 
 void print_help(std::ostream& out) {

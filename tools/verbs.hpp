@@ -20,5 +20,6 @@ int plan_verb(const Arguments& arguments, Console& console);
 int reduce_verb(const Arguments& arguments, Console& console);
 int serve_verb(const Arguments& arguments, Console& console);
 int sweep_verb(const Arguments& arguments, Console& console);
+int tradeoff_verb(const Arguments& arguments, Console& console);
 
 }  // namespace gonio::tools

@@ -14,7 +14,7 @@ using gonio::Schema;
 namespace {
 
 const fs::path examples = fs::path(GONIO_SOURCE_DIR) / "data-schemas" / "examples";
-constexpr Schema schemas[] = {Schema::bench, Schema::axis_profile, Schema::plan, Schema::fit, Schema::checks};
+constexpr Schema schemas[] = {Schema::bench, Schema::axis_profile, Schema::plan, Schema::fit, Schema::checks, Schema::tradeoff};
 static_assert(std::size(schemas) == gonio::schema_count);
 
 std::vector<fs::path> files_in(const fs::path& folder, const std::string& ending) {

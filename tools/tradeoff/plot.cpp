@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The plot: error against time, log-log, one small plot a panel, the key below them all.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "tools/gnuplot.hpp"
+#include "tools/tradeoff/tradeoff.hpp"
+
+namespace gonio::tools::tradeoff {
+namespace {
+
+// Colours of Okabe and Ito, told apart by the colour-blind; the marker differs too.
+constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f3c8d", "#444444"};
+constexpr int markers[] = {7, 5, 9, 13, 11, 15, 6, 4};
+constexpr std::size_t styles = std::size(colours);
+
+/// Larger errors, and results that are no number, stand on this line at the top.
+constexpr double useless = 10;
+
+double shown(const Point& point) { return std::clamp(point.error.value_or(useless), std::numeric_limits<double>::min(), useless); }
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  void add(double value) { low = std::min(low, value), high = std::max(high, value); }
+};
+
+/// A power of ten below (-1) or above (+1) a value.
+double decade(double value, int side) {
+  const double exponent = std::log10(value);
+  return std::pow(10.0, side < 0 ? std::floor(exponent) : std::ceil(exponent));
+}
+
+constexpr std::size_t key_columns = 3;
+constexpr double key_line = 0.03;  // of the height of the picture
+
+/// The title above all panels, and below them what marker stands for what method. Drawn once: labels are unset after the first panel.
+std::string heading_and_key(const std::string& title, const std::vector<std::string>& methods, double foot) {
+  std::string text = fmt::format("set label {} at screen 0.5,0.98 center font ',15' noenhanced\n", gnuplot_quoted(title));
+  const auto place = [&](std::size_t k) {
+    return fmt::format("at screen {},{} left", 0.06 + 0.32 * static_cast<double>(k % key_columns),
+                       foot - 0.03 - key_line * static_cast<double>(k / key_columns));
+  };
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    text += fmt::format("set label {} {} point pt {} ps 1.2 lc rgb '{}' offset character 1.2,0 noenhanced\n", gnuplot_quoted(methods[m]),
+                        place(m), markers[m % styles], colours[m % styles]);
+  return text + fmt::format("set label '— Pareto front; bars: fastest and slowest run' {} textcolor rgb '#777777' noenhanced\n",
+                            place(methods.size()));
+}
+
+std::string data_block(const std::string& name, const std::vector<const Point*>& points, double unit, double least_error) {
+  std::string text = fmt::format("${} << EOD\n", name);
+  for (const Point* point : points)
+    text += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} \"{}\"\n", point->time.median_s / unit, std::max(shown(*point), least_error),
+                        point->time.least_s / unit, point->time.most_s / unit, point->setting);
+  return text + "EOD\n";
+}
+
+}  // namespace
+
+std::string plot_script(const Measured& measured, const std::string& terminal, const std::string& output) {
+  std::vector<const Panel*> panels;
+  for (const Panel& panel : measured.panels)
+    if (panel.drawn) panels.push_back(&panel);
+  std::vector<std::string> methods;
+  for (const Point& point : measured.points)
+    if (std::find(methods.begin(), methods.end(), point.method) == methods.end()) methods.push_back(point.method);
+  const auto in_panel = [&](const Panel& panel, auto&& wanted) {
+    std::vector<const Point*> out;
+    for (const Point& point : measured.points)
+      if (point.panel == panel.name && wanted(point)) out.push_back(&point);
+    return out;
+  };
+
+  Range time, error;
+  error.add(useless);
+  for (const Panel* panel : panels) {
+    time.add(panel->time_limit.value / measured.time_unit_s);
+    error.add(panel->error_floor.value);
+    for (const Point* point : in_panel(*panel, [](const Point&) { return true; })) {
+      time.add(point->time.least_s / measured.time_unit_s), time.add(point->time.most_s / measured.time_unit_s);
+      if (shown(*point) > 0.01 * panel->error_floor.value) error.add(shown(*point));
+    }
+  }
+  const double bottom = decade(error.low / 20, -1), left = decade(time.low / 2, -1), right = decade(time.high * 1.5, 1);
+
+  const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(panels.size()))));
+  const std::size_t rows = (panels.size() + columns - 1) / columns;
+  const double foot = key_line * static_cast<double>((methods.size() + key_columns) / key_columns) + 0.03, head = 0.05;
+  const double width = 1.0 / static_cast<double>(columns), height = (1 - foot - head) / static_cast<double>(rows);
+
+  std::string text = terminal + "\nset output " + gnuplot_quoted(output) + "\nset encoding utf8\n";
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    for (std::size_t m = 0; m < methods.size(); ++m)
+      text += data_block(fmt::format("p{}m{}", p, m), in_panel(*panels[p], [&](const Point& q) { return q.method == methods[m]; }),
+                         measured.time_unit_s, panels[p]->error_floor.value / 4);
+    auto front = in_panel(*panels[p], [](const Point& q) { return q.on_front; });
+    std::sort(front.begin(), front.end(), [](const Point* a, const Point* b) { return a->time.median_s < b->time.median_s; });
+    text += data_block(fmt::format("p{}front", p), front, measured.time_unit_s, panels[p]->error_floor.value / 4);
+  }
+  text += "set multiplot\n" + heading_and_key(measured.title, methods, foot);
+  text += fmt::format(
+      "set logscale xy\nset format x '10^{{%L}}'\nset format y '10^{{%L}}'\nset grid lc rgb '#e4e4e4' lt 1\nset border lc rgb '#444444'\n"
+      "set xrange [{}:{}]\nset yrange [{}:{}]\nset ytics 100\nset bars 0.5\nunset key\nset lmargin 9\nset rmargin 2\nset bmargin 3.2\nset "
+      "tmargin 2\n",
+      left, right, bottom, useless * 100);
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const Panel& panel = *panels[p];
+    const std::size_t row = p / columns, column = p % columns;
+    text += fmt::format("set origin {},{}\nset size {},{}\n", width * static_cast<double>(column),
+                        foot + height * static_cast<double>(rows - 1 - row), width, height);
+    text += fmt::format("set title {} font ',12' offset 0,-0.6 noenhanced\n", gnuplot_quoted(panel.name));
+    text += fmt::format("set xlabel {} offset 0,0.4 noenhanced\nset ylabel {} offset 1,0 noenhanced\n",
+                        gnuplot_quoted(fmt::format("{} [{}]", measured.time_of, measured.time_unit)), gnuplot_quoted(measured.error_of));
+    const double limit = panel.time_limit.value / measured.time_unit_s, floor = panel.error_floor.value;
+    text += fmt::format(
+        "set arrow 2 from {0},graph 0 to {0},graph 1 nohead lc rgb '#888888' dt 3 lw 1.5\nset label {1} at {0},graph 0.97 rotate by 90 "
+        "right offset character 0.8,0 font ',9' textcolor rgb '#666666' noenhanced\n",
+        limit, gnuplot_quoted(panel.time_limit.label));
+    text += fmt::format(
+        "set arrow 3 from graph 0,first {0} to graph 1,first {0} nohead lc rgb '#888888' dt 2 lw 1.5\nset label {1} at graph 0.98,first "
+        "{0} "
+        "right offset character 0,-0.7 font ',9' textcolor rgb '#666666' noenhanced\n",
+        floor, gnuplot_quoted(panel.error_floor.label));
+    text += fmt::format(
+        "set arrow 4 from graph 0,first {0} to graph 1,first {0} nohead lc rgb '#d0d0d0' lw 1\nset label 'useless: error above {0}, or no "
+        "number' at graph 0.98,first {0} right offset character 0,0.6 font ',9' textcolor rgb '#888888' noenhanced\n",
+        useless);
+    text += fmt::format("plot $p{}front using 1:2 with lines lw 2 lc rgb '#bbbbbb'", p);
+    for (std::size_t m = 0; m < methods.size(); ++m) {
+      if (in_panel(panel, [&](const Point& q) { return q.method == methods[m]; }).empty()) continue;
+      text += fmt::format(", $p{}m{} using 1:2:3:4 with xerrorbars pt {} ps 0.9 lw 1.2 lc rgb '{}'", p, m, markers[m % styles],
+                          colours[m % styles]);
+    }
+    text += fmt::format(
+        ", $p{}front using 1:2:5 with labels left offset character 0.7,0.5 font ',9' textcolor rgb '#333333' noenhanced\nunset label\n", p);
+  }
+  return text + "unset multiplot\n";
+}
+
+}  // namespace gonio::tools::tradeoff

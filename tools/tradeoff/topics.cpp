@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/tradeoff/tradeoff.hpp"
+
+namespace gonio::tools::tradeoff {
+
+const std::vector<Topic>& topics() {
+  static const std::vector<Topic> list{
+      {"albedo", "directional albedo of a lobe: closed form, quadratures, Monte Carlo", measure_albedo},
+  };
+  return list;
+}
+
+}  // namespace gonio::tools::tradeoff

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What accuracy costs in time: settings measured against a known truth, and what to choose among them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "data-schemas/json.hpp"
+#include "tools/tradeoff/timing.hpp"
+
+namespace gonio::tools::tradeoff {
+
+/// The one seed of everything random in the topics.
+inline constexpr std::uint64_t seed = 20260701;
+
+/// One setting of one method, measured.
+struct Point {
+  std::string panel, method, setting;
+  Timing time;
+  /// Relative error, the worst over the cases of the panel; none where the result was not a number.
+  std::optional<double> error;
+  std::string worst_at;   ///< the case with that error
+  bool on_front = false;  ///< no other point of the panel is both faster and nearer the truth
+};
+
+/// A labelled line of a plot.
+struct Line {
+  double value = 0;
+  std::string label;
+};
+
+/// Points that answer the same question, drawn together.
+struct Panel {
+  std::string name;
+  Line error_floor;   ///< no method can be nearer the truth than this; relative
+  Line time_limit;    ///< no method can be faster than this; seconds
+  bool drawn = true;  ///< whether the plot shows it; the table shows all
+};
+
+struct Measured {
+  std::string title, time_of, error_of;  ///< headings: of the plot, the time axis, the error axis
+  double time_unit_s = 1;                ///< the plot's unit of time
+  std::string time_unit;
+  std::vector<double> targets;  ///< errors for which the text names the cheapest setting
+  std::vector<Panel> panels;
+  std::vector<Point> points;
+  std::vector<std::string> remarks;  ///< sentences that the points cannot say by themselves
+};
+
+/// How much to measure, and where to tell about it.
+struct Effort {
+  bool quick = false;                                                ///< the whole topic in less than 10 s
+  std::function<void(double part, std::string_view what)> progress;  ///< part of the work done, 0 to 1
+};
+
+/// One question of accuracy against time. A topic is one file and one line in the list of topics.cpp.
+struct Topic {
+  std::string_view name, summary;
+  Measured (*measure)(const Effort& effort);
+};
+const std::vector<Topic>& topics();
+
+Measured measure_albedo(const Effort& effort);
+
+/// Marks the points that no other point of their panel beats in both time and error.
+void mark_front(std::vector<Point>& points);
+/// One paragraph: the cheapest setting for each target that holds in every panel, what never gets there, and the topic's remarks.
+std::string advice(const Measured& measured);
+/// The document of `gonio tradeoff` (data-schemas/tradeoff.schema.json) and its points as CSV.
+Json document(std::string_view topic, bool quick, const Measured& measured, Json context);
+std::string csv(const Measured& measured);
+/// The script by which gnuplot draws the drawn panels: log-log, one marker a setting, fronts joined, floor and limit labelled.
+/// `terminal` is a line that sets gnuplot's terminal.
+std::string plot_script(const Measured& measured, const std::string& terminal, const std::string& output);
+
+}  // namespace gonio::tools::tradeoff
