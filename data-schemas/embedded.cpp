@@ -44,6 +44,7 @@ const char* name(Schema schema) noexcept {
     case Schema::fit: return "fit";
     case Schema::checks: return "checks";
     case Schema::tradeoff: return "tradeoff";
+    case Schema::fit_line: return "fit-line";
   }
   return "";
 }

@@ -2,6 +2,7 @@
 // The texts of data-schemas/ that are built into the program, so that it needs no files of its own at run time.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -9,10 +10,12 @@
 namespace gonio {
 
 /// Which schema of data-schemas/*.schema.json a document has to meet.
-enum class Schema { bench, axis_profile, plan, fit, checks, tradeoff };
-constexpr std::size_t schema_count = 6;
+enum class Schema { bench, axis_profile, plan, fit, checks, tradeoff, fit_line };
+inline constexpr std::array every_schema{Schema::bench,  Schema::axis_profile, Schema::plan,    Schema::fit,
+                                         Schema::checks, Schema::tradeoff,     Schema::fit_line};
+constexpr std::size_t schema_count = every_schema.size();
 
-/// `bench`, `axis-profile`, `plan`, `fit`, `checks` or `tradeoff`: the first part of the schema's file name, and the middle part of its examples'.
+/// The first part of the schema's file name, and the middle part of its examples': `bench`, `axis-profile`, `fit-line`, ...
 const char* name(Schema schema) noexcept;
 
 /// The text of a schema.

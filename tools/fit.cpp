@@ -1,70 +1,87 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gonio fit: parameters of a model from any BRDF file.
-#include "fitting/fit.hpp"
-
+// gonio fit: parameters of a model from any BRDF file, from several together, or from many one by one.
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <optional>
+#include <fstream>
+#include <iostream>
 
-#include "brdf/analytic_brdf.hpp"
-#include "tools/brdf_source.hpp"
+#include "tools/fit_batch.hpp"
+#include "tools/fit_job.hpp"
 #include "tools/output.hpp"
 #include "tools/verbs.hpp"
 
 namespace gonio::tools {
+namespace {
 
-int fit_verb(const Arguments& arguments, Console& console) {
-  using Stopwatch = std::chrono::steady_clock;
-  const auto start = Stopwatch::now();
-  const auto seconds = [](auto duration) { return std::chrono::duration<double>(duration).count(); };
+using Stopwatch = std::chrono::steady_clock;
 
-  std::string models;
-  for (const ModelInfo& info : model_infos()) models += (models.empty() ? "" : ", ") + std::string(info.name);
-  CLI::App app("Fits a model to samples or a table; prints parameters with 95 % profile intervals.", "fit");
-  std::string file, metric = "linear", out;
-  std::vector<std::string> fixed;
-  fitting::FitOptions options;
-  ReadFlags flags;
-  app.add_option("FILE", file, "Any readable BRDF file")->required();
-  app.add_option("--model", options.model, "One of " + models)->required();
-  app.add_option("--metric", metric, "linear, linear-cos, log, log1p or cbrt");
-  app.add_option("--fix", fixed, "NAME=VALUE: hold a parameter")->take_all();
-  app.add_flag("--per-channel", options.per_channel, "Nonlinear parameters per channel");
-  app.add_option("--out", out, "Write the JSON document to this file");
-  flags.add_to(app);
-  add_common(app, console);
-  if (!parse(app, arguments)) return 0;
-  const auto known = fitting::metric_named(metric);
-  if (!known) throw Error(ErrorKind::usage, {"--metric", "'" + metric + "'", "linear, linear-cos, log, log1p or cbrt"});
-  options.metric = *known;
-  model_info(options.model);
-  for (const std::string& text : fixed) {
-    const auto [name, value] = name_value(text, "--fix");
-    options.fixed[name] = number_from(value, "--fix " + name);
-  }
-  const auto read_options = flags.options();
+/// One name a line, from a file or `-` for standard input; empty lines are none.
+std::vector<std::string> names_from(const std::string& list) {
+  std::ifstream file;
+  if (list != "-") file.open(list);
+  std::istream& in = list == "-" ? std::cin : file;
+  if (!in) throw Error(ErrorKind::input, {list, "no readable file", "a list of files, one a line"});
+  std::vector<std::string> out;
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty()) out.push_back(line);
+  return out;
+}
 
-  const auto read_start = Stopwatch::now();
-  std::optional<HashedInput> input;
-  if (console.json || !out.empty()) input = hash_in_background(file);
-  const tabulated::Opened opened = tabulated::open_brdf(file, read_options);
-  if (!opened.observations) throw Error(ErrorKind::input, {file, opened.format + ", a model and not a measurement", "samples or a table"});
-  console.note_masked(file, opened.masked);
-  FitTimings timings;
-  timings.read_s = seconds(Stopwatch::now() - read_start);
-  const fitting::FitResult result = fitting::fit(*opened.observations, options);
-  timings.fit_s = result.fit_s;
-
-  if (input) {
-    Json where_from = context({*input}, std::nullopt, opened.simulated);  // waits for the hash
-    timings.total_s = seconds(Stopwatch::now() - start);
-    const Json document = fit_document(result, opened.masked, timings, std::move(where_from));
+int fit_together(const std::vector<std::string>& files, const FitRequest& request, const std::string& out, Stopwatch::time_point start,
+                 Console& console) {
+  std::vector<HashedInput> hashes;
+  if (console.json || !out.empty()) hashes = hash_inputs(files, request.read);
+  const FitInput input = read_inputs(files, request.read, console);
+  FitOutcome outcome = fit_input(input, request.fit);
+  if (!hashes.empty()) {
+    Json where_from = context(hashes, std::nullopt, input.simulated);  // waits for the hashes
+    outcome.timings.total_s = std::chrono::duration<double>(Stopwatch::now() - start).count();
+    const Json document = fit_document(outcome.result, input.masked, outcome.timings, std::move(where_from), request.options);
     if (!out.empty()) write_file_atomically(out, document.dump(2) + "\n");
     if (console.json) console.print_json(document);
   }
   if (!console.json)
-    for (const std::string& line : fit_lines(result)) console.print(line);
-  return result.status == fitting::Status::converged ? 0 : 1;
+    for (const std::string& line : fit_lines(outcome.result)) console.print(line);
+  return outcome.result.status == fitting::Status::converged ? 0 : 1;
+}
+
+}  // namespace
+
+int fit_verb(const Arguments& arguments, Console& console) {
+  const auto start = Stopwatch::now();
+  CLI::App app(
+      "Fits a model to samples or a table; prints parameters with 95 % profile intervals. Several files or a folder are fitted one by one, "
+      "a JSON line each, or --together.",
+      "fit");
+  std::vector<std::string> names;
+  std::string list;
+  FitFlags flags;
+  BatchOptions batch;
+  bool together = false, lines = false;
+  app.add_option("FILE", names, "Any readable BRDF files, or folders of them");
+  app.add_option("--files-from", list, "More files, one a line; - reads standard input");
+  flags.add_to(app);
+  app.add_flag("--together", together, "One fit of all files");
+  app.add_flag("--lines", lines, "JSON lines for a single file too");
+  app.add_option("--jobs", batch.jobs, "Files fitted at a time (default: as many as processors)")->check(CLI::PositiveNumber);
+  app.add_option("--out", batch.out, "Write the JSON document, or the JSON lines, to this file");
+  app.add_flag("--resume", batch.resume, "JSON lines: go on with --out, leaving out what stands there");
+  app.add_flag("--ordered", batch.ordered, "JSON lines in the order of the files");
+  add_common(app, console);
+  if (!parse(app, arguments)) return 0;
+
+  const FitRequest request = flags.request();
+  if (!list.empty()) {
+    const std::vector<std::string> more = names_from(list);
+    names.insert(names.end(), more.begin(), more.end());
+  }
+  const std::vector<std::string> files = expand_folders(names);
+  if (files.empty()) throw Error(ErrorKind::usage, {"gonio fit", "no file", "FILE, or a folder with measurements in it"});
+  if (batch.resume && batch.out.empty()) throw Error(ErrorKind::usage, {"--resume", "no --out", "the file of JSON lines to go on with"});
+  const bool one_by_one = !together && (lines || files != names || files.size() > 1 || !list.empty());
+  if (one_by_one) return fit_batch(files, request, batch, console);
+  if (batch.resume || batch.ordered) throw Error(ErrorKind::usage, {"--resume, --ordered", "a single fit", "several files, or --lines"});
+  return fit_together(files, request, batch.out, start, console);
 }
 
 }  // namespace gonio::tools

@@ -91,7 +91,7 @@ Json masked_document(const MaskedCounts& masked) {
                        {"blocked", count(masked.blocked)}});
 }
 
-Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, const FitTimings& timings, Json context) {
+Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, const FitTimings& timings, Json context, Json options) {
   using fitting::IntervalKind;
   Json parameters = Json::array();
   for (const auto& p : result.parameters) {
@@ -127,6 +127,7 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
   if (!result.reason.empty()) document.set("reason", result.reason);
   document.set("model", result.model);
   document.set("metric", name(result.metric));
+  if (!options.is_null()) document.set("options", std::move(options));
   document.set("parameters", parameters);
   document.set("errors", Json::object({{"linear", e.linear},
                                        {"linear_cos", e.linear_cos},

@@ -25,8 +25,8 @@ Json masked_document(const MaskedCounts& masked);
 struct FitTimings {
   double read_s = 0, fit_s = 0, total_s = 0;
 };
-/// The document of `gonio fit` (data-schemas/fit.schema.json).
-Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, const FitTimings& timings, Json context);
+/// The document of `gonio fit` (data-schemas/fit.schema.json); `options` are the flags that shaped the result, null: none given.
+Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, const FitTimings& timings, Json context, Json options = {});
 /// The document of `gonio check` (data-schemas/checks.schema.json).
 Json checks_document(const std::vector<fitting::Check>& checks, Json context);
 

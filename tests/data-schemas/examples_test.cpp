@@ -14,8 +14,6 @@ using gonio::Schema;
 namespace {
 
 const fs::path examples = fs::path(GONIO_SOURCE_DIR) / "data-schemas" / "examples";
-constexpr Schema schemas[] = {Schema::bench, Schema::axis_profile, Schema::plan, Schema::fit, Schema::checks, Schema::tradeoff};
-static_assert(std::size(schemas) == gonio::schema_count);
 
 std::vector<fs::path> files_in(const fs::path& folder, const std::string& ending) {
   std::vector<fs::path> files;
@@ -27,7 +25,7 @@ std::vector<fs::path> files_in(const fs::path& folder, const std::string& ending
 
 Schema schema_of(const fs::path& file) {
   const std::string stem = file.stem();
-  for (const Schema schema : schemas)
+  for (const Schema schema : gonio::every_schema)
     if (stem.ends_with(std::string(".") + name(schema))) return schema;
   FAIL(file << " names no schema");
   return Schema::fit;
@@ -84,7 +82,7 @@ TEST_CASE("every .faults file belongs to an example, and every schema has an exa
     for (const fs::path& file : files_in(examples / kind, ".json")) seen.insert(schema_of(file));
     if (kind == std::string_view("valid") && !gonio::axis_profile_names().empty())
       seen.insert(Schema::axis_profile);  // the built-in profiles are its valid examples
-    for (const Schema schema : schemas) {
+    for (const Schema schema : gonio::every_schema) {
       INFO(kind << ' ' << name(schema));
       const bool is_there = !gonio::schema_file_text(std::string(name(schema)) + ".schema.json").empty();
       CHECK(seen.contains(schema) == is_there);

@@ -83,7 +83,7 @@ struct Example {
 std::vector<Example> examples() {
   std::vector<Example> list;
   for (const std::string_view file : gonio::example_names())
-    for (const Schema schema : {Schema::bench, Schema::axis_profile, Schema::plan, Schema::fit, Schema::checks, Schema::tradeoff})
+    for (const Schema schema : gonio::every_schema)
       if (file.ends_with(fmt::format(".{}.json", name(schema)))) list.push_back({file, schema});
   return list;
 }

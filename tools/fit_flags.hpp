@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The flags that say what is fitted and how, the same for one file, many, and shards.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fitting/fit.hpp"
+#include "tools/brdf_source.hpp"
+
+namespace gonio::tools {
+
+/// A fit as the flags ask for it.
+struct FitRequest {
+  tabulated::ReadOptions read;
+  fitting::FitOptions fit;
+  /// Every flag that shapes the result, by its name without dashes; `model` and `metric` always. The same request on the same bytes by
+  /// the same version gives the same parameters.
+  Json options;
+};
+
+struct FitFlags {
+  std::string metric = "linear";
+  std::vector<std::string> fixed;
+  fitting::FitOptions fit;
+  ReadFlags read;
+
+  void add_to(CLI::App& app);
+  /// Error(usage) for a value that no flag takes. `model` stands in for --model where several models are tried.
+  FitRequest request(const std::string& model) const;
+  FitRequest request() const { return request(fit.model); }
+};
+
+}  // namespace gonio::tools
