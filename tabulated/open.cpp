@@ -12,6 +12,7 @@
 #include "tabulated/csv.hpp"
 #include "tabulated/fit_json.hpp"
 #include "tabulated/merl.hpp"
+#include "tabulated/rgl.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -60,6 +61,7 @@ const std::vector<Format>& formats() {
       {"merl", "90 x 90 x 180 half/difference table of red, green, blue (.binary)", recognises_merl, open_merl, write_brdf_as_merl},
       {"brdf-exr", "table of incident by outgoing directions as an OpenEXR file (.brdf.exr)", recognises_brdf_exr, open_brdf_exr,
        write_samples_as_exr},
+      {"rgl", "material file of the RGL database, RGB or spectral (.bsdf, read only)", recognises_rgl, open_rgl, nullptr},
       {"fit-json", "the document of a fit, as the model it describes (read only)", recognises_fit_json, open_fit_json, nullptr},
       {"csv", "samples as text: theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg, values and uncertainties", recognises_csv, open_csv,
        write_samples_as_csv},

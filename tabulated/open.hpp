@@ -37,7 +37,7 @@ struct ReadOptions {
 /// What a file turned out to be. Exactly one of `dataset` and `table`/`model` is the content; the others are views of it where
 /// they make sense: a data set can be evaluated (interpolated) as `brdf`, everything measured can be fitted as `observations`.
 struct Opened {
-  std::string format;                                     ///< csv, brdf-exr, merl, fit-json
+  std::string format;                                     ///< csv, brdf-exr, merl, rgl, fit-json, ...
   std::shared_ptr<const Dataset> dataset;                 ///< samples, or null
   std::shared_ptr<const Observations> observations;       ///< what the fitter and the checks read, or null for a model
   std::shared_ptr<const Brdf> brdf;                       ///< evaluable, or null

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tabulated/marginal_warp.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace gonio::tabulated {
+namespace {
+
+/// The cell of a grid of nodes a coordinate lies in, and where in it.
+struct Cell {
+  std::size_t low;
+  double part;
+};
+
+Cell cell_of(double coordinate, std::size_t nodes) noexcept {
+  const double at = std::clamp(coordinate, 0.0, 1.0) * static_cast<double>(nodes - 1);
+  const std::size_t low = std::min(static_cast<std::size_t>(at), nodes - 2);
+  return {low, at - static_cast<double>(low)};
+}
+
+double mixed(double a, double b, double weight) noexcept { return (1 - weight) * a + weight * b; }
+
+/// The integral from 0 to `part` of a density that runs linearly from `first` to `last` over a cell.
+double integral_to(double part, double first, double last) noexcept { return part * (first + 0.5 * part * (last - first)); }
+
+/// The part of a cell at which that integral is `amount`: the root of a quadratic in the form that does not cancel.
+double part_at(double amount, double first, double last) noexcept {
+  const double root = first + std::sqrt(std::max(0.0, first * first + 2 * amount * (last - first)));
+  return root > 0 ? std::clamp(2 * amount / root, 0.0, 1.0) : 0;
+}
+
+/// The last of `count` non-decreasing numbers but one that is below `amount`: the cell in which the integral reaches it.
+template <class Value>
+std::size_t cell_reaching(std::size_t count, double amount, Value&& value) {
+  std::size_t low = 0, high = count - 1;
+  while (high - low > 1) {
+    const std::size_t middle = low + (high - low) / 2;
+    (value(middle) < amount ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+Neighbours neighbours_in(const std::vector<float>& increasing, double at) noexcept {
+  const std::size_t last = increasing.size() - 1;
+  if (!(at > static_cast<double>(increasing.front()))) return {0, 0, 0};
+  if (at >= static_cast<double>(increasing.back())) return {last, last, 0};
+  const auto above =
+      std::upper_bound(increasing.begin(), increasing.end(), at, [](double a, float b) { return a < static_cast<double>(b); });
+  const auto high = static_cast<std::size_t>(above - increasing.begin());
+  const double a = static_cast<double>(increasing[high - 1]), b = static_cast<double>(increasing[high]);
+  return {high - 1, high, (at - a) / (b - a)};
+}
+
+double bilinear(const float* values, std::size_t rows, std::size_t columns, UnitPoint at) noexcept {
+  const Cell x = cell_of(at.x, columns), y = cell_of(at.y, rows);
+  const float* low = values + y.low * columns + x.low;
+  const float* high = low + columns;
+  const auto along = [&](const float* row) { return mixed(static_cast<double>(row[0]), static_cast<double>(row[1]), x.part); };
+  return mixed(along(low), along(high), y.part);
+}
+
+double MarginalWarp::integral(const float* density, std::size_t rows, std::size_t columns) noexcept {
+  double sum = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    double along = 0;
+    for (std::size_t column = 0; column < columns; ++column) {
+      const bool border = column == 0 || column + 1 == columns;
+      along += (border ? 0.5 : 1.0) * static_cast<double>(density[row * columns + column]);
+    }
+    sum += (row == 0 || row + 1 == rows ? 0.5 : 1.0) * along;
+  }
+  return sum;
+}
+
+MarginalWarp::MarginalWarp(std::vector<float> density, std::size_t rows, std::size_t columns)
+    : rows_(rows), columns_(columns), density_(std::move(density)) {
+  const std::size_t size = rows * columns, slices = density_.size() / size;
+  conditional_.resize(density_.size());
+  marginal_.resize(slices * rows);
+  for (std::size_t slice = 0; slice < slices; ++slice) {
+    const float* values = density_.data() + slice * size;
+    const double scale = 1 / integral(values, rows, columns);
+    scale_.push_back(scale);
+    double* along = conditional_.data() + slice * size;
+    double* across = marginal_.data() + slice * rows;
+    for (std::size_t row = 0; row < rows; ++row, along += columns, values += columns) {
+      along[0] = 0;
+      for (std::size_t k = 1; k < columns; ++k)
+        along[k] = along[k - 1] + 0.5 * scale * (static_cast<double>(values[k - 1]) + static_cast<double>(values[k]));
+      across[row] = row == 0 ? 0 : across[row - 1] + 0.5 * (along[-1] + along[columns - 1]);
+    }
+  }
+}
+
+UnitPoint MarginalWarp::invert(const SliceWeights& slices, UnitPoint at) const noexcept {
+  const Cell x = cell_of(at.x, columns_), y = cell_of(at.y, rows_);
+  double density[2][2]{}, before[2]{}, whole[2]{}, rows_before = 0;
+  for (std::size_t k = 0; k < slices.slice.size(); ++k) {
+    const double weight = slices.weight[k];
+    if (weight == 0) continue;
+    const std::size_t slice = slices.slice[k];
+    rows_before += weight * marginal_[slice * rows_ + y.low];
+    for (std::size_t j = 0; j < 2; ++j) {
+      const std::size_t row = (slice * rows_ + y.low + j) * columns_;
+      before[j] += weight * conditional_[row + x.low];
+      whole[j] += weight * conditional_[row + columns_ - 1];
+      for (std::size_t i = 0; i < 2; ++i) density[j][i] += weight * scale_[slice] * static_cast<double>(density_[row + x.low + i]);
+    }
+  }
+  const double first = mixed(density[0][0], density[1][0], y.part), last = mixed(density[0][1], density[1][1], y.part);
+  const double in_row = mixed(whole[0], whole[1], y.part);
+  UnitPoint out;
+  out.x = in_row > 0 ? (mixed(before[0], before[1], y.part) + integral_to(x.part, first, last)) / in_row
+                     : std::numeric_limits<double>::quiet_NaN();
+  out.y = rows_before + integral_to(y.part, whole[0], whole[1]);
+  return out;
+}
+
+UnitPoint MarginalWarp::sample(std::size_t slice, UnitPoint uniform) const noexcept {
+  constexpr double border = 6e-8;  // half a unit in the last place of a float below 1
+  const double across = std::clamp(uniform.y, border, 1 - border), along = std::clamp(uniform.x, border, 1 - border);
+
+  const double* marginal = marginal_.data() + slice * rows_;
+  const std::size_t row = cell_reaching(rows_, across, [&](std::size_t k) { return marginal[k]; });
+  const double* low = conditional_.data() + (slice * rows_ + row) * columns_;
+  const double* high = low + columns_;
+  const double y = part_at(across - marginal[row], low[columns_ - 1], high[columns_ - 1]);
+
+  const auto reached = [&](std::size_t k) { return mixed(low[k], high[k], y); };
+  const double amount = along * reached(columns_ - 1);
+  const std::size_t column = cell_reaching(columns_, amount, reached);
+  const float* values = density_.data() + (slice * rows_ + row) * columns_ + column;
+  const auto density = [&](std::size_t k) {
+    return scale_[slice] * mixed(static_cast<double>(values[k]), static_cast<double>(values[columns_ + k]), y);
+  };
+  const double x = part_at(amount - reached(column), density(0), density(1));
+  return {(static_cast<double>(column) + x) / static_cast<double>(columns_ - 1),
+          (static_cast<double>(row) + y) / static_cast<double>(rows_ - 1)};
+}
+
+}  // namespace gonio::tabulated

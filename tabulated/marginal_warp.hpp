@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The map between a density on the unit square and the uniform density: rows by the marginal, then columns by the conditional.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace gonio::tabulated {
+
+/// A point of the unit square.
+struct UnitPoint {
+  double x = 0, y = 0;
+};
+
+/// Two neighbours in a list of increasing numbers, and the weight of the second. Beyond the ends the nearest number alone.
+struct Neighbours {
+  std::size_t low = 0, high = 0;
+  double weight = 0;
+};
+Neighbours neighbours_in(const std::vector<float>& increasing, double at) noexcept;
+
+/// Up to four slices of a table over two parameters and their weights, which sum to 1.
+struct SliceWeights {
+  std::array<std::size_t, 4> slice{};
+  std::array<double, 4> weight{};
+};
+
+/// A value between the nodes of a rows x columns grid over the unit square, bilinear; nodes on the borders.
+double bilinear(const float* values, std::size_t rows, std::size_t columns, UnitPoint at) noexcept;
+
+/// Bilinear densities on the nodes of a grid over the unit square, one per slice, each normalised to integral 1; between slices the
+/// normalised densities and their integrals are mixed linearly (Dupuy and Jakob, "An Adaptive Parameterization for Efficient Material
+/// Acquisition and Rendering", 2018, supplement). y is found from the density of whole rows, x from the density inside the row.
+/// Everything in double: the integrals are sums of trapezoids, exact for such a density.
+class MarginalWarp {
+ public:
+  MarginalWarp() = default;
+  /// `density` is [slice][row][column], finite and >= 0; rows and columns >= 2. A slice whose `integral` is 0 must not be given.
+  MarginalWarp(std::vector<float> density, std::size_t rows, std::size_t columns);
+
+  /// Where a point goes under the map that makes the density uniform. NaN in x where the whole row has no density: nothing was there.
+  UnitPoint invert(const SliceWeights& slices, UnitPoint at) const noexcept;
+  /// The inverse of `invert` in one slice. Points are drawn in from the border by 6e-8, as those who write such files do.
+  UnitPoint sample(std::size_t slice, UnitPoint uniform) const noexcept;
+
+  /// Integral of one slice in units of grid cells.
+  static double integral(const float* density, std::size_t rows, std::size_t columns) noexcept;
+
+ private:
+  std::size_t rows_ = 0, columns_ = 0;
+  std::vector<float> density_;
+  std::vector<double> scale_;        ///< [slice] 1/integral
+  std::vector<double> conditional_;  ///< [slice][row][column] integral along the row up to the node, normalised
+  std::vector<double> marginal_;     ///< [slice][row] integral of the rows up to this one, normalised
+};
+
+}  // namespace gonio::tabulated
