@@ -28,19 +28,6 @@ double positive_series(double a, double b, double x) noexcept {
 
 }  // namespace
 
-double gamma_ratio_half(double z) noexcept {
-  // Γ(z+1/2)/Γ(z+1) = Γ(z+3/2)/Γ(z+2) · (z+1)/(z+1/2)
-  double factor = 1;
-  while (z < 50) {
-    factor *= (z + 1) / (z + 0.5);
-    z += 1;
-  }
-  const double w = 1 / z;
-  const double series =
-      1 + w * (-1.0 / 8 + w * (1.0 / 128 + w * (5.0 / 1024 + w * (-21.0 / 32768 + w * (-399.0 / 262144 + w * (869.0 / 4194304))))));
-  return factor * series / std::sqrt(z);
-}
-
 double incomplete_beta_half(double x, double one_minus_x, double b) noexcept {
   if (x <= 0) return 0;
   if (one_minus_x <= 0) return 1;

@@ -20,19 +20,19 @@ double half_vector_lobe_integral(double s, Angle theta) noexcept;
 /// (s+8)/(8π), the common approximate normalisation: over-reflects, albedo up to 1.0752 at s = 8.764. In any scalar type, as the others.
 template <class T>
 T blinn_phong_norm(const T& s) {
-  return (s + 8.0) * (0.125 / std::numbers::pi);
+  return (s + T(8)) * T(0.125 / std::numbers::pi);
 }
 /// (s+2)(s+4)/(8π(2^{-s/2}+s)), which makes the albedo at normal incidence exactly 1 (Giesen 2009).
 template <class T>
 T blinn_phong_exact_norm(const T& s) {
   using std::exp;
-  return (s + 2.0) / (s + exp(s * (-0.5 * std::numbers::ln2))) * ((s + 4.0) * (0.125 / std::numbers::pi));
+  return (s + T(2)) / (s + exp(s * T(-0.5 * std::numbers::ln2))) * ((s + T(4)) * T(0.125 / std::numbers::pi));
 }
 /// (s+2)/(2π): exact for the lobe about the mirror direction at normal incidence; for the half-vector lobe it normalises the
 /// distribution of half vectors, and as a BRDF constant is up to four times too bright.
 template <class T>
 T phong_norm(const T& s) {
-  return (s + 2.0) * (0.5 / std::numbers::pi);
+  return (s + T(2)) * T(0.5 / std::numbers::pi);
 }
 
 }  // namespace gonio

@@ -4,7 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "brdf/lobe_kernels.hpp"
+
 namespace gonio {
+namespace {
+
+Vector3<double> vector(const Direction& w) { return {w.x(), w.y(), w.z()}; }
+
+}  // namespace
 
 LobeGeometry lobe_geometry(const GonioAngles& angles) noexcept {
   const Angle& a = angles.theta_i;
@@ -41,20 +48,11 @@ LobeGeometry lobe_geometry(const Direction& wi, const Direction& wo) noexcept {
   LobeGeometry g;
   g.cos_i = wi.z();
   g.cos_o = wo.z();
-  g.log_cos_h = hz > 0 ? -0.5 * std::log1p((hx * hx + hy * hy) / (hz * hz)) : LobeGeometry::no_lobe;
-  // With r the mirrored wi, o - r = (hx, hy, oz - iz) is exact when both are close (Sterbenz). Only sums and products that do not
-  // change when wi and wo are exchanged, so that the lobe is reciprocal to the last bit.
-  const double dx = hx, dy = hy, dz = wo.z() - wi.z();
-  const double cos_psi = wi.z() * wo.z() - (wi.x() * wo.x() + wi.y() * wo.y());
-  const double half_sin2 = (dx * dx + dy * dy + dz * dz) / 4;  // sin²(psi/2) for unit vectors
-  if (cos_psi > 0)
-    // Near the peak the difference is exact; far from it the dot product has the smaller error.
-    g.log_cos_psi = half_sin2 < 0.25 ? std::log1p(-2 * half_sin2) : std::log(cos_psi);
-  else
-    g.log_cos_psi = LobeGeometry::no_lobe;
+  g.log_cos_h = log_cos_half(vector(wi), vector(wo));
+  g.log_cos_psi = log_cos_mirror(vector(wi), vector(wo));
   g.product_x = wi.x() * wo.x();
   g.product_y = wi.y() * wo.y();
-  const double ex = wi.x() - wo.x(), ey = wi.y() - wo.y();
+  const double ex = wi.x() - wo.x(), ey = wi.y() - wo.y(), dz = wi.z() - wo.z();
   const double half_sin2_retro = (ex * ex + ey * ey + dz * dz) / 4, cos_retro = wi.z() * wo.z() + (g.product_x + g.product_y);
   if (cos_retro > 0)
     g.log_cos_retro = half_sin2_retro < 0.25 ? std::log1p(-2 * half_sin2_retro) : std::log(cos_retro);

@@ -88,8 +88,8 @@ int tradeoff_verb(const Arguments& arguments, Console& console) {
   const auto draw = [&](const char* ending, const char* terminal) {
     draw_with_gnuplot(file(ending), [&](const auto& output) { return tradeoff::plot_script(measured, terminal, output.string()); });
   };
-  draw(".svg", "set terminal svg size 1500,1000 font 'DejaVu Sans,13' background '#ffffff'");
-  draw(".png", "set terminal pngcairo size 1500,1000 font 'DejaVu Sans,11' background '#ffffff'");
+  draw(".svg", "svg font 'DejaVu Sans,13'");
+  draw(".png", "pngcairo font 'DejaVu Sans,11'");
 
   if (console.json)
     console.print_json(document);

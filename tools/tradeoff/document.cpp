@@ -19,11 +19,12 @@ std::string quoted(const std::string& text) {
 
 Json document(std::string_view topic, bool quick, const Measured& measured, Json context) {
   Json panels = Json::array(), points = Json::array();
-  for (const Panel& panel : measured.panels)
-    panels.push_back(Json::object({{"name", panel.name},
-                                   {"drawn", panel.drawn},
-                                   {"error_floor", line(panel.error_floor)},
-                                   {"time_limit_s", line(panel.time_limit)}}));
+  for (const Panel& panel : measured.panels) {
+    Json floors = Json::array();
+    for (const Line& floor : panel.error_floors) floors.push_back(line(floor));
+    panels.push_back(Json::object(
+        {{"name", panel.name}, {"drawn", panel.drawn}, {"error_floors", std::move(floors)}, {"time_limit_s", line(panel.time_limit)}}));
+  }
   for (const Point& point : measured.points)
     points.push_back(Json::object(
         {{"panel", point.panel},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <random>
 
+#include "brdf/beta_function.hpp"
 #include "brdf/lobe_geometry.hpp"
 #include "brdf/model.hpp"
 
@@ -35,22 +36,12 @@ class MappedLobe {
   double s_, sine_, cosine_;
 };
 
-/// Γ(z + 1/2)/Γ(z + 1) in long double: the asymptotic series of the product's double one, from z >= 400, where it holds 1e-20.
-long double gamma_ratio(long double z) {
-  long double factor = 1;
-  for (; z < 400; z += 1) factor *= (z + 1) / (z + 0.5L);
-  const long double w = 1 / z;
-  const long double series =
-      1 + w * (-1.0L / 8 + w * (1.0L / 128 + w * (5.0L / 1024 + w * (-21.0L / 32768 + w * (-399.0L / 262144 + w * (869.0L / 4194304))))));
-  return factor * series / std::sqrt(z);
-}
-
 /// A = cos θ + (s+2)/(2π) ∫_0^θ sin(v) √π R(s/2+1) sin^s(θ - v) dv, then times 2π/(s+2).
 long double mirror_integral(long double s, long double theta) {
   constexpr long double pil = std::numbers::pi_v<long double>;
   const long double scale = 2 * pil / (s + 2);
   if (theta == 0) return scale;
-  const long double K = std::sqrt(pil) * gamma_ratio(s / 2 + 1);
+  const long double K = std::sqrt(pil) * gamma_ratio_half(s / 2 + 1);
   // Beyond this v the integrand is below e^-90 of its largest value.
   const long double reach = std::min(theta, std::min(90 * std::tan(theta) / s, std::sqrt(180 / s)));
   long double sum = 0;

@@ -50,6 +50,12 @@ std::string heading_and_key(const std::string& title, const std::vector<std::str
                             place(methods.size()));
 }
 
+double least_floor(const Panel& panel) {
+  double least = useless;
+  for (const Line& floor : panel.error_floors) least = std::min(least, floor.value);
+  return least;
+}
+
 std::string data_block(const std::string& name, const std::vector<const Point*>& points, double unit, double least_error) {
   std::string text = fmt::format("${} << EOD\n", name);
   for (const Point* point : points)
@@ -64,6 +70,8 @@ std::string plot_script(const Measured& measured, const std::string& terminal, c
   std::vector<const Panel*> panels;
   for (const Panel& panel : measured.panels)
     if (panel.drawn) panels.push_back(&panel);
+  const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(panels.size()))));
+  const std::size_t rows = (panels.size() + columns - 1) / columns;
   std::vector<std::string> methods;
   for (const Point& point : measured.points)
     if (std::find(methods.begin(), methods.end(), point.method) == methods.end()) methods.push_back(point.method);
@@ -78,27 +86,28 @@ std::string plot_script(const Measured& measured, const std::string& terminal, c
   error.add(useless);
   for (const Panel* panel : panels) {
     time.add(panel->time_limit.value / measured.time_unit_s);
-    error.add(panel->error_floor.value);
+    error.add(least_floor(*panel));
     for (const Point* point : in_panel(*panel, [](const Point&) { return true; })) {
       time.add(point->time.least_s / measured.time_unit_s), time.add(point->time.most_s / measured.time_unit_s);
-      if (shown(*point) > 0.01 * panel->error_floor.value) error.add(shown(*point));
+      if (shown(*point) > 0.01 * least_floor(*panel)) error.add(shown(*point));
     }
   }
   const double bottom = decade(error.low / 20, -1), left = decade(time.low / 2, -1), right = decade(time.high * 1.5, 1);
 
-  const auto columns = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(panels.size()))));
-  const std::size_t rows = (panels.size() + columns - 1) / columns;
   const double foot = key_line * static_cast<double>((methods.size() + key_columns) / key_columns) + 0.03, head = 0.05;
   const double width = 1.0 / static_cast<double>(columns), height = (1 - foot - head) / static_cast<double>(rows);
 
-  std::string text = terminal + "\nset output " + gnuplot_quoted(output) + "\nset encoding utf8\n";
+  // Wide enough for the key, and every panel large enough to read.
+  std::string text = fmt::format("set terminal {} size {},{} background '#ffffff'\nset output ", terminal,
+                                 std::max<std::size_t>(1500, 420 * columns), std::max<std::size_t>(800, 120 + 400 * rows)) +
+                     gnuplot_quoted(output) + "\nset encoding utf8\n";
   for (std::size_t p = 0; p < panels.size(); ++p) {
     for (std::size_t m = 0; m < methods.size(); ++m)
       text += data_block(fmt::format("p{}m{}", p, m), in_panel(*panels[p], [&](const Point& q) { return q.method == methods[m]; }),
-                         measured.time_unit_s, panels[p]->error_floor.value / 4);
+                         measured.time_unit_s, least_floor(*panels[p]) / 4);
     auto front = in_panel(*panels[p], [](const Point& q) { return q.on_front; });
     std::sort(front.begin(), front.end(), [](const Point* a, const Point* b) { return a->time.median_s < b->time.median_s; });
-    text += data_block(fmt::format("p{}front", p), front, measured.time_unit_s, panels[p]->error_floor.value / 4);
+    text += data_block(fmt::format("p{}front", p), front, measured.time_unit_s, least_floor(*panels[p]) / 4);
   }
   text += "set multiplot\n" + heading_and_key(measured.title, methods, foot);
   text += fmt::format(
@@ -114,18 +123,19 @@ std::string plot_script(const Measured& measured, const std::string& terminal, c
     text += fmt::format("set title {} font ',12' offset 0,-0.6 noenhanced\n", gnuplot_quoted(panel.name));
     text += fmt::format("set xlabel {} offset 0,0.4 noenhanced\nset ylabel {} offset 1,0 noenhanced\n",
                         gnuplot_quoted(fmt::format("{} [{}]", measured.time_of, measured.time_unit)), gnuplot_quoted(measured.error_of));
-    const double limit = panel.time_limit.value / measured.time_unit_s, floor = panel.error_floor.value;
+    const double limit = panel.time_limit.value / measured.time_unit_s;
     text += fmt::format(
-        "set arrow 2 from {0},graph 0 to {0},graph 1 nohead lc rgb '#888888' dt 3 lw 1.5\nset label {1} at {0},graph 0.97 rotate by 90 "
+        "set arrow from {0},graph 0 to {0},graph 1 nohead lc rgb '#888888' dt 3 lw 1.5\nset label {1} at {0},graph 0.85 rotate by 90 "
         "right offset character 0.8,0 font ',9' textcolor rgb '#666666' noenhanced\n",
         limit, gnuplot_quoted(panel.time_limit.label));
+    for (const Line& floor : panel.error_floors)
+      text += fmt::format(
+          "set arrow from graph 0,first {0} to graph 1,first {0} nohead lc rgb '#888888' dt 2 lw 1.5\nset label {1} at graph 0.98,first "
+          "{0} "
+          "right offset character 0,-0.7 font ',9' textcolor rgb '#666666' noenhanced\n",
+          floor.value, gnuplot_quoted(floor.label));
     text += fmt::format(
-        "set arrow 3 from graph 0,first {0} to graph 1,first {0} nohead lc rgb '#888888' dt 2 lw 1.5\nset label {1} at graph 0.98,first "
-        "{0} "
-        "right offset character 0,-0.7 font ',9' textcolor rgb '#666666' noenhanced\n",
-        floor, gnuplot_quoted(panel.error_floor.label));
-    text += fmt::format(
-        "set arrow 4 from graph 0,first {0} to graph 1,first {0} nohead lc rgb '#d0d0d0' lw 1\nset label 'useless: error above {0}, or no "
+        "set arrow from graph 0,first {0} to graph 1,first {0} nohead lc rgb '#d0d0d0' lw 1\nset label 'useless: error above {0}, or no "
         "number' at graph 0.98,first {0} right offset character 0,0.6 font ',9' textcolor rgb '#888888' noenhanced\n",
         useless);
     text += fmt::format("plot $p{}front using 1:2 with lines lw 2 lc rgb '#bbbbbb'", p);
@@ -135,7 +145,9 @@ std::string plot_script(const Measured& measured, const std::string& terminal, c
                           colours[m % styles]);
     }
     text += fmt::format(
-        ", $p{}front using 1:2:5 with labels left offset character 0.7,0.5 font ',9' textcolor rgb '#333333' noenhanced\nunset label\n", p);
+        ", $p{}front using 1:2:5 with labels left offset character 0.7,0.5 font ',9' textcolor rgb '#333333' noenhanced\nunset "
+        "label\nunset arrow\n",
+        p);
   }
   return text + "unset multiplot\n";
 }

@@ -36,9 +36,9 @@ struct Line {
 /// Points that answer the same question, drawn together.
 struct Panel {
   std::string name;
-  Line error_floor;   ///< no method can be nearer the truth than this; relative
-  Line time_limit;    ///< no method can be faster than this; seconds
-  bool drawn = true;  ///< whether the plot shows it; the table shows all
+  std::vector<Line> error_floors;  ///< no method of a kind can be nearer the truth than this; relative
+  Line time_limit;                 ///< no method can be faster than this; seconds
+  bool drawn = true;               ///< whether the plot shows it; the table shows all
 };
 
 struct Measured {
@@ -65,6 +65,7 @@ struct Topic {
 const std::vector<Topic>& topics();
 
 Measured measure_albedo(const Effort& effort);
+Measured measure_precision(const Effort& effort);
 
 /// Marks the points that no other point of their panel beats in both time and error.
 void mark_front(std::vector<Point>& points);
@@ -74,7 +75,7 @@ std::string advice(const Measured& measured);
 Json document(std::string_view topic, bool quick, const Measured& measured, Json context);
 std::string csv(const Measured& measured);
 /// The script by which gnuplot draws the drawn panels: log-log, one marker a setting, fronts joined, floor and limit labelled.
-/// `terminal` is a line that sets gnuplot's terminal.
+/// `terminal` is gnuplot's terminal with its font; the size follows from the number of panels.
 std::string plot_script(const Measured& measured, const std::string& terminal, const std::string& output);
 
 }  // namespace gonio::tools::tradeoff
