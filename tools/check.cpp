@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gonio check: reciprocity, isotropy, energy and positivity as statistics.
+// gonio check: the physics of a BRDF as statistics.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
@@ -21,6 +21,7 @@ int check_verb(const Arguments& arguments, Console& console) {
   app.add_option("--param", parameters, "NAME=VALUE of the model")->take_all();
   app.add_option("--rotation", rotation, "Rotation of the sample for each file, degrees: 0,45,90");
   app.add_option("--margin", options.margin, "Largest relative effect that does not matter (default 0.02)")->check(CLI::PositiveNumber);
+  app.add_option("--where", options.where, "At most so many places that stand out are told per check (default 10)");
   app.add_flag("--strict", strict, "A warning fails too");
   app.add_option("--out", out, "Write the JSON document to this file");
   flags.add_to(app);

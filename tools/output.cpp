@@ -14,23 +14,74 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
 }
 
+Json place_document(const fitting::Place& place) {
+  return Json::object({{"theta_i_deg", place.angles.theta_i.degrees()},
+                       {"phi_i_deg", place.angles.phi_i.degrees()},
+                       {"theta_o_deg", place.angles.theta_o.degrees()},
+                       {"phi_o_deg", place.angles.phi_o.degrees()},
+                       {"channel", place.channel},
+                       {"ratio", or_null(place.ratio)},
+                       {"z", or_null(place.z)},
+                       {"p_holm", or_null(place.p_holm)},
+                       {"p_bh", or_null(place.p_bh)}});
+}
+
+Json directed_document(const fitting::DirectedTest& test) {
+  return Json::object({{"pattern", test.pattern}, {"amplitude", test.amplitude}, {"u", test.u}, {"z", test.z}, {"p_value", test.p_value}});
+}
+
+Json incidence_document(const fitting::IncidenceAlbedo& incidence) {
+  return Json::object({{"theta_i_deg", incidence.theta_i_deg},
+                       {"phi_i_deg", incidence.phi_i_deg},
+                       {"channel", incidence.channel},
+                       {"albedo", incidence.albedo},
+                       {"u_noise", incidence.u_noise},
+                       {"u_quadrature", incidence.u_quadrature},
+                       {"u_scale", incidence.u_scale},
+                       {"covered", incidence.covered},
+                       {"missing_bound", incidence.missing_bound}});
+}
+
+/// Sets `name` to the list of documents if there are any.
+template <class T>
+void set_list(Json& document, const char* name, const std::vector<T>& items, Json (*item_document)(const T&)) {
+  if (items.empty()) return;
+  Json list = Json::array();
+  for (const T& item : items) list.push_back(item_document(item));
+  document.set(name, list);
+}
+
 Json check_document(const fitting::Check& check) {
-  return Json::object({{"id", check.id},
-                       {"verdict", name(check.verdict)},
-                       {"statistic", or_null(check.statistic)},
-                       {"p_value", or_null(check.p_value)},
-                       {"effect", or_null(check.effect)},
-                       {"u_effect", or_null(check.u_effect)},
-                       {"unit", check.unit},
-                       {"threshold", or_null(check.threshold)},
-                       {"n", static_cast<std::int64_t>(check.n)},
-                       {"detail", check.detail}});
+  Json document = Json::object({{"id", check.id},
+                                {"verdict", name(check.verdict)},
+                                {"statistic", or_null(check.statistic)},
+                                {"p_value", or_null(check.p_value)},
+                                {"effect", or_null(check.effect)},
+                                {"u_effect", or_null(check.u_effect)},
+                                {"unit", check.unit},
+                                {"threshold", or_null(check.threshold)},
+                                {"n", static_cast<std::int64_t>(check.n)},
+                                {"detail", check.detail}});
+  set_list(document, "directed", check.directed, &directed_document);
+  set_list(document, "where", check.where, &place_document);
+  set_list(document, "incidences", check.incidences, &incidence_document);
+  return document;
 }
 
 Json check_array(const std::vector<fitting::Check>& checks) {
   Json out = Json::array();
   for (const fitting::Check& check : checks) out.push_back(check_document(check));
   return out;
+}
+
+std::string place_text(const fitting::Place& place) {
+  const GonioAngles& a = place.angles;
+  std::string text = fmt::format("({:.6g}°, {:.6g}°) -> ({:.6g}°, {:.6g}°), channel {}", a.theta_i.degrees(), a.phi_i.degrees(),
+                                 a.theta_o.degrees(), a.phi_o.degrees(), place.channel);
+  if (place.ratio) text += fmt::format(", ratio {:.4g}", *place.ratio);
+  if (place.z) text += fmt::format(", z {:.1f}", *place.z);
+  if (place.p_holm && place.p_bh) text += fmt::format(", p {:.2g} (Holm), {:.2g} (BH)", *place.p_holm, *place.p_bh);
+  return text;
 }
 
 std::string channel_name(const fitting::FitResult& result, const fitting::FittedParameter& parameter) {
@@ -176,6 +227,7 @@ std::vector<std::string> check_lines(const std::vector<fitting::Check>& checks) 
     std::string p;
     if (check.p_value) p = fmt::format(" (p = {:.2g})", *check.p_value);
     lines.push_back(fmt::format("  {:<16} {:<8} {}{}", check.id, name(check.verdict), check.detail, p));
+    for (const auto& place : check.where) lines.push_back("    at " + place_text(place));
   }
   return lines;
 }

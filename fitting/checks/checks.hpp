@@ -2,6 +2,7 @@
 // The checks of a BRDF's physics, as statistics (alpha = 1 % per check, Holm over checks, margin 2 % unless told otherwise).
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct CheckOptions {
   double alpha = 0.01;
   /// Rotation of the sample for each data set given (degrees); empty: taken from the data's own rotated pairs.
   std::vector<double> rotation_deg;
+  std::size_t where = 10;  ///< at most so many places are told
 };
 
 /// What is checked: one or several data sets (the same sample rotated), a table as observations, or a model.
@@ -29,12 +31,16 @@ struct CheckSubject {
 /// f(wi, wo) = f(wo, wi) on the partner pairs of a data set (numerics E): χ² of all differences and directed tests against patterns that
 /// change sign under the exchange (cosines, in-plane components, time). Exact partners in the sample's frame; where there are none,
 /// partners at equal azimuth difference, which takes the sample for isotropic and says so.
-/// Effect: root mean square relative difference beyond the noise.
+/// Effect: root mean square relative difference beyond the noise. A difference that a tilt of the sample's normal explains is called a
+/// tilt, and noise that is understated is called that: both warn.
 Check check_reciprocity(const CheckSubject& subject, const CheckOptions& options);
 /// The same (theta_i, theta_o, phi_o - phi_i) at different azimuths of the sample: several data sets of the rotated sample, or
-/// rotated samples inside one. Cochran's Q with harmonic tests: the first tells a tilt, the second an anisotropic sample. Mirror pairs
-/// are no test of isotropy. Effect: relative standard deviation between azimuths beyond the noise.
+/// rotated samples inside one. Cochran's Q with harmonic tests: the first tells a tilt or wedge, the second an anisotropic sample. Mirror
+/// pairs are no test of isotropy. Effect: relative standard deviation between azimuths beyond the noise.
 Check check_isotropy(const CheckSubject& subject, const CheckOptions& options);
+/// f is the same on both sides of the plane of incidence. Never `fail` for samples: inside one file an instrument that is off to one side
+/// does the same as the material. Effect: root mean square relative difference beyond the noise.
+Check check_bilateral(const CheckSubject& subject, const CheckOptions& options);
 /// Directional albedo <= 1 for every incidence. Models: the exact bound. Tables: quadrature. Scattered samples: nearest-sample
 /// quadrature over the projected hemisphere, with the part no sample covers bounded. Effect: the largest albedo.
 Check check_energy(const CheckSubject& subject, const CheckOptions& options);
@@ -46,7 +52,7 @@ struct CheckEntry {
   Check (*run)(const CheckSubject&, const CheckOptions&);
 };
 
-/// Every check: reciprocity, isotropy, energy, positivity. A new check is one file and one line in the list.
+/// Every check: reciprocity, isotropy, bilateral, energy, positivity. A new check is one file and one line in the list.
 const std::vector<CheckEntry>& check_list();
 
 /// Runs the whole list and applies Holm's correction over the checks that have a p-value.

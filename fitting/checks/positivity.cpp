@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fitting/checks/by_evaluation.hpp"
 #include "fitting/checks/checks.hpp"
+#include "fitting/checks/table_symmetry.hpp"
 #include "fitting/distributions.hpp"
 
 namespace gonio::fitting {

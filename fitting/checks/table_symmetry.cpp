@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fitting/checks/by_evaluation.hpp"
+#include "fitting/checks/table_symmetry.hpp"
 
 #include <fmt/format.h>
 
