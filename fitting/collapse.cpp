@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <span>
 
 namespace gonio::fitting {
 namespace {
@@ -64,6 +65,27 @@ BlockSums plain_sums(const double* f, const double* valid, std::size_t size, dou
   return {n, scale * (mean + left / n), scale * scale * (squares - left * left / n), 0, static_cast<std::size_t>(n)};
 }
 
+/// Least and largest value used in a channel, in units of the element, each in independent lanes.
+struct ValueRange {
+  std::array<double, lanes> least, most;
+
+  ValueRange() {
+    least.fill(std::numeric_limits<double>::infinity());
+    most.fill(-std::numeric_limits<double>::infinity());
+  }
+  void add(const double* f, const double* valid, std::size_t size) noexcept {
+    for (std::size_t k = 0; k < size; k += lanes)
+      for (std::size_t l = 0; l < std::min(lanes, size - k); ++l) {
+        const double low = valid[k + l] > 0 ? f[k + l] : least[l], high = valid[k + l] > 0 ? f[k + l] : most[l];
+        least[l] = low < least[l] ? low : least[l];
+        most[l] = high > most[l] ? high : most[l];
+      }
+  }
+  bool within(CleanRange range) const noexcept {
+    return *std::min_element(least.begin(), least.end()) >= range.low && *std::max_element(most.begin(), most.end()) <= range.high;
+  }
+};
+
 bool plain(const ObservationBlock& block) {
   if (block.validity == ObservationBlock::Validity::mask) return false;
   for (const Column& column : block.f)
@@ -82,7 +104,8 @@ void merge(BlockSums& all, const BlockSums& part) {
 }
 
 /// A stretch of the block at a time, which stays in the first-level cache; copied there, because a mapped file need not be aligned.
-CollapsedBlock collapse_plain(const ObservationBlock& block) {
+/// `range`: one per channel, filled, or empty if nobody asks.
+CollapsedBlock collapse_plain(const ObservationBlock& block, std::vector<ValueRange>& range) {
   constexpr std::size_t stretch = 512;
   const std::size_t channels = block.f.size();
   const bool drop_negative = block.validity == ObservationBlock::Validity::no_channel_negative;
@@ -110,6 +133,7 @@ CollapsedBlock collapse_plain(const ObservationBlock& block) {
         most[k] = valid[k] > most[k] ? valid[k] : most[k];
         least[k] = valid[k] < least[k] ? valid[k] : least[k];
       }
+      if (!range.empty()) range[c].add(f.data(), valid.data(), size);
       merge(out.channel[c], plain_sums(f.data(), valid.data(), size, block.f[c].scale));
     }
     double used = 0, whole = 0;
@@ -120,12 +144,49 @@ CollapsedBlock collapse_plain(const ObservationBlock& block) {
   return out;
 }
 
-}  // namespace
+/// The values of a channel that count, transformed, with their numbers in the block.
+struct UsedValues {
+  std::vector<double> value;
+  std::vector<std::size_t> number;
+};
 
-CollapsedBlock collapse(const Observations& observations, std::size_t index, Transform transform, bool weighted) {
-  const ObservationBlock block = observations.block(index);
-  if (transform.metric == Metric::linear && !weighted && plain(block)) return collapse_plain(block);
+UsedValues used_values(const ObservationBlock& block, std::size_t channel, Transform transform) {
+  UsedValues out;
+  for (std::size_t k = 0; k < block.size; ++k) {
+    const double f = block.f[channel][k];
+    if (!block.valid(k) || !std::isfinite(f) || !transform.defined(f, 1)) continue;
+    out.value.push_back(transform.value(f, 1));
+    out.number.push_back(k);
+  }
+  return out;
+}
 
+/// The channel's sums with a robust mean instead of the plain one.
+void replace_sums(const ObservationBlock& block, std::size_t channel, Transform transform, Robust robust, CollapsedBlock& out) {
+  const UsedValues used = used_values(block, channel, transform);
+  std::vector<double> scratch;
+  const RobustMean mean = robust_mean(used.value, robust, scratch);
+  if (robust == Robust::automatic && mean.outliers.empty()) return;
+  const double count = static_cast<double>(mean.count);
+  out.channel[channel] = {count, mean.mean, mean.within, out.channel[channel].weighted_value2, mean.count};
+  for (const std::size_t k : mean.outliers)
+    out.outliers.push_back({used.number[k], channel, transform.inverse(used.value[k], 1), transform.inverse(mean.mean, 1),
+                            (used.value[k] - mean.mean) / mean.scale});
+}
+
+CleanRange clean_range_of(const ObservationBlock& block, std::size_t channel) {
+  std::array<double, judges> some;
+  std::size_t count = 0;
+  const std::size_t stride = (block.size + judges - 1) / judges;
+  for (std::size_t k = 0; k < block.size; k += stride) {
+    const double f = block.f[channel][k];
+    if (block.valid(k) && std::isfinite(f)) some[count++] = f;
+  }
+  return clean_range(std::span(some).first(count), block.size);
+}
+
+CollapsedBlock collapse_any(const Observations& observations, std::size_t index, const ObservationBlock& block, Transform transform,
+                            bool weighted) {
   const std::size_t channels = block.f.size();
   const bool cosine = transform.metric == Metric::linear_cos && !weighted;
   std::vector<LobeGeometry> geometry;
@@ -156,6 +217,27 @@ CollapsedBlock collapse(const Observations& observations, std::size_t index, Tra
     out.channel.push_back(sums[c].sums());
     out.channel.back().weighted_value2 = squares[c];
   }
+  return out;
+}
+
+}  // namespace
+
+CollapsedBlock collapse(const Observations& observations, std::size_t index, Transform transform, bool weighted, Robust robust) {
+  const ObservationBlock block = observations.block(index);
+  const std::size_t channels = block.f.size();
+  const bool look = robust != Robust::none && !weighted;
+  if (transform.metric == Metric::linear && !weighted && plain(block)) {
+    std::vector<ValueRange> range(look ? channels : 0);
+    CollapsedBlock out = collapse_plain(block, range);
+    for (std::size_t c = 0; c < range.size(); ++c) {
+      CleanRange clean = clean_range_of(block, c);
+      clean.low /= block.f[c].scale, clean.high /= block.f[c].scale;
+      if (robust != Robust::automatic || !range[c].within(clean)) replace_sums(block, c, transform, robust, out);
+    }
+    return out;
+  }
+  CollapsedBlock out = collapse_any(observations, index, block, transform, weighted);
+  for (std::size_t c = 0; look && c < channels; ++c) replace_sums(block, c, transform, robust, out);
   return out;
 }
 

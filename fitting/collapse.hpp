@@ -6,6 +6,7 @@
 
 #include "brdf/observations.hpp"
 #include "fitting/transform.hpp"
+#include "fitting/weighting.hpp"
 
 namespace gonio::fitting {
 
@@ -17,10 +18,15 @@ struct BlockSums {
 struct CollapsedBlock {
   std::vector<BlockSums> channel;
   std::size_t used = 0, masked = 0;  ///< samples with a value used, and with a value left out
+  std::vector<Outlier> outliers;     ///< by channel; `sample` within the block, `fitted` the mean of the row
 };
 
 /// One block under one metric; `weighted`: w = 1/(u φ')². A plain table (f64, no u, metric linear) takes a loop that the compiler
 /// vectorises, about a nanosecond a value.
-CollapsedBlock collapse(const Observations& observations, std::size_t index, Transform transform, bool weighted);
+///
+/// `robust`: the loss of the mean (robust_mean) where a channel of an unweighted block does not look clean; a clean one keeps its plain
+/// sums, bit for bit. Values with their own u stay as they are.
+CollapsedBlock collapse(const Observations& observations, std::size_t index, Transform transform, bool weighted,
+                        Robust robust = Robust::none);
 
 }  // namespace gonio::fitting

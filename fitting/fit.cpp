@@ -153,10 +153,10 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   require_usable(options, *kernel.info);
   FitResult result;
   result.model = options.model;
-  result.metric = options.metric;
+  result.metric = options.metric.value_or(Metric::linear);
   result.channels = observations.channels();
 
-  Terms terms = make_terms(observations, kernel, options.metric, options.threads);
+  Terms terms = make_terms(observations, kernel, result.metric, options.threads);
   result.n_observations = terms.n_observations;
   result.n_masked = terms.n_masked;
   const std::size_t channels = terms.channel.size();

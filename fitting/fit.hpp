@@ -11,6 +11,7 @@
 
 #include "brdf/observations.hpp"
 #include "fitting/checks/check.hpp"
+#include "fitting/weighting.hpp"
 
 namespace gonio::fitting {
 
@@ -32,7 +33,9 @@ const char* name(IntervalKind kind) noexcept;
 
 struct FitOptions {
   std::string model = "blinn-phong";
-  Metric metric = Metric::linear;
+  std::optional<Metric> metric;  ///< unset: linear
+  Weights weights = Weights::automatic;
+  std::optional<Robust> robust;         ///< unset: automatic where the weights are automatic and the metric is unset, else none
   bool per_channel = false;             ///< nonlinear parameters per channel too
   std::map<std::string, double> fixed;  ///< parameters held at a value
   double confidence = 0.95;             ///< of the profile intervals
@@ -72,6 +75,7 @@ struct FitResult {
   /// Values per channel in table order, ready for AnalyticBrdf.
   std::vector<std::vector<double>> values;
   FitErrors errors;
+  Weighting weighting;             ///< where the weights came from, and the outliers
   std::size_t n_observations = 0;  ///< samples used
   std::size_t n_masked = 0;        ///< cells of the observations that are no measurement, and f <= 0 under `log`
   std::vector<OtherMinimum> other_minima;

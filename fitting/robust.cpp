@@ -19,8 +19,7 @@ constexpr double normal_median_deviation = 0.6744897501960817;
 constexpr double truncation = 2;  // of the scale estimate
 constexpr int most_rounds = 30;
 constexpr double settled = 1e-8;           // of location and scale, in scales
-constexpr std::size_t strided = 129;       // values that judge a row
-constexpr double strided_slack = 1.5;      // the median deviation of 129 values is uncertain by 11 %, four of those
+constexpr double judges_slack = 1.5;       // the median deviation of 129 values is uncertain by 11 %, four of those
 constexpr std::size_t fewest_values = 10;  // below it nothing can be told apart
 
 constexpr std::array<std::pair<Robust, const char*>, 4> robust_names{
@@ -97,18 +96,12 @@ bool in_runs(std::span<const std::size_t> samples) noexcept {
   return 2 * beside > samples.size();
 }
 
-bool looks_clean(std::span<const double> values) {
-  if (values.size() < fewest_values) return true;
-  const std::size_t stride = (values.size() + strided - 1) / strided;
-  std::array<double, strided> some;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < values.size(); k += stride) some[count++] = values[k];
-  const double centre = median_of(std::span(some).first(count));
-  for (std::size_t k = 0; k < count; ++k) some[k] = std::abs(some[k] - centre);
-  const double reach = strided_slack * outlier_limit(values.size()) * median_of(std::span(some).first(count)) / normal_median_deviation;
-  double most = 0;
-  for (const double value : values) most = std::max(most, std::abs(value - centre));
-  return most <= reach;
+CleanRange clean_range(std::span<double> some, std::size_t n) noexcept {
+  if (some.size() < fewest_values) return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  const double centre = median_of(some);
+  for (double& value : some) value = std::abs(value - centre);
+  const double reach = judges_slack * outlier_limit(n) * median_of(some) / normal_median_deviation;
+  return {centre - reach, centre + reach};
 }
 
 RobustMean robust_mean(std::span<const double> values, Robust loss, std::vector<double>& scratch) {

@@ -40,9 +40,16 @@ struct RobustMean {
   double scale = 0;                   ///< standard deviation of the good ones
 };
 
-/// Whether plain sums over the values may be trusted: no value lies further from a median than the limit allows, judged by an even
-/// stride of at most 129 of them; costs one pass. False for wrong readings, and where the spread is far from normal.
-bool looks_clean(std::span<const double> values);
+/// At most this many values judge a row.
+inline constexpr std::size_t judges = 129;
+
+/// The values among which `n` readings of one quantity look clean: those within the outlier limit of the median of some of them, with
+/// room for what a median deviation of few values may be wrong by. Wrong readings lie outside, and so do some where the spread is far
+/// from normal. Everything for fewer than ten values. Reorders `some`.
+struct CleanRange {
+  double low, high;
+};
+CleanRange clean_range(std::span<double> some, std::size_t n) noexcept;
 
 /// Median and median deviation, then location and scale together (Huber's proposal 2, k = 2), then:
 ///   automatic  the mean of all values within the outlier limit, unless the others stand in runs

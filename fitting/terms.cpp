@@ -57,17 +57,21 @@ void append(Terms& to, const Terms& part) {
     extend(all.value, more.value);
     extend(all.u2, more.u2);
     extend(all.read_variance, more.read_variance);
+    extend(all.row_within, more.row_within);
+    extend(all.row_count, more.row_count);
     all.within += more.within;
     all.weighted_value2 += more.weighted_value2;
     all.count += more.count;
   }
+  extend(to.outliers, part.outliers);
   to.n_observations += part.n_observations;
   to.n_masked += part.n_masked;
 }
 
-Terms collapsed_block(const Observations& observations, std::size_t index, Transform transform, bool weighted) {
+Terms collapsed_block(const Observations& observations, std::size_t index, std::size_t first_sample, Transform transform, bool weighted,
+                      Robust robust) {
   Terms out;
-  const CollapsedBlock sums = collapse(observations, index, transform, weighted);
+  CollapsedBlock sums = collapse(observations, index, transform, weighted, robust);
   LobeGeometry geometry;
   geometry.log_cos_h = observations.block(index).log_cos_h;
   out.geometry.push_back(geometry);
@@ -76,10 +80,14 @@ Terms collapsed_block(const Observations& observations, std::size_t index, Trans
     terms.target = {sum.mean};
     terms.weight = {sum.weight};
     terms.within = sum.within;
+    terms.row_within = {sum.within};
+    terms.row_count = {sum.count};
     terms.weighted_value2 = sum.weighted_value2;
     terms.count = sum.count;
     out.channel.push_back(std::move(terms));
   }
+  out.outliers = std::move(sums.outliers);
+  for (Outlier& outlier : out.outliers) outlier.sample += first_sample;
   out.n_observations = sums.used;
   out.n_masked = sums.masked;
   return out;
@@ -129,7 +137,7 @@ Terms block_rows(const Observations& observations, std::size_t index, std::size_
 
 }  // namespace
 
-Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads) {
+Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads, Robust robust) {
   const std::size_t blocks = observations.block_count();
   Terms terms;
   terms.kernel = kernel;
@@ -141,7 +149,7 @@ Terms make_terms(const Observations& observations, const ModelKernel& kernel, Me
   for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + observations.block(b).size;
   std::vector<Terms> parts(blocks);
   for_each_index(blocks, threads, [&](std::size_t b) {
-    parts[b] = terms.collapsed ? collapsed_block(observations, b, terms.transform, terms.weighted)
+    parts[b] = terms.collapsed ? collapsed_block(observations, b, first[b], terms.transform, terms.weighted, robust)
                                : block_rows(observations, b, first[b], terms.transform, terms.weighted);
   });
   for (const Terms& part : parts) append(terms, part);
@@ -151,6 +159,8 @@ Terms make_terms(const Observations& observations, const ModelKernel& kernel, Me
 Terms only_channel(const Terms& terms, std::size_t channel) {
   Terms one = terms;
   one.channel = {terms.channel[channel]};
+  std::erase_if(one.outliers, [channel](const Outlier& outlier) { return outlier.channel != channel; });
+  for (Outlier& outlier : one.outliers) outlier.channel = 0;
   return one;
 }
 

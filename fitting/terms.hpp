@@ -8,6 +8,7 @@
 #include "brdf/observations.hpp"
 #include "fitting/model_kernel.hpp"
 #include "fitting/transform.hpp"
+#include "fitting/weighting.hpp"
 
 namespace gonio::fitting {
 
@@ -18,6 +19,8 @@ struct ChannelTerms {
   std::vector<double> value;              ///< f [1/sr] where the rows are single samples, else empty
   std::vector<double> u2, read_variance;  ///< 1/sr², single samples with uncertainty only
   double within = 0;                      ///< centred sum of squares inside collapsed blocks
+  std::vector<double> row_within;         ///< of every collapsed row, else empty
+  std::vector<std::size_t> row_count;     ///< samples used in every collapsed row, else empty
   double weighted_value2 = 0;             ///< Σ weight φ'² f²: the signal-to-noise in all, where the data carry u
   std::size_t count = 0;                  ///< samples used
 };
@@ -31,6 +34,7 @@ struct Terms {
   bool weighted = false;   ///< weights are 1/variance, so that the sum is a χ²
   bool collapsed = false;  ///< a row is a whole block
   std::size_t n_observations = 0, n_masked = 0;
+  std::vector<Outlier> outliers;  ///< of collapsed rows, left out or weighed down there
 
   std::size_t rows() const noexcept { return geometry.size(); }
 };
@@ -44,9 +48,10 @@ struct Terms {
 ///
 /// Blocks over which θh is constant collapse to one row if the model depends on nothing else and the metric allows it (log1p does not):
 /// Σ w (φ - φ̂)² = W (φ̄ - φ̂)² + Σ w (φ - φ̄)², exact, with the centred sum formed apart.
-Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads);
+/// `robust`: the loss of the mean of such a row, see collapse.hpp; nothing where the rows are single samples.
+Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads, Robust robust = Robust::none);
 
-/// The terms of one channel alone.
+/// The terms of one channel alone; it becomes channel 0 of its outliers.
 Terms only_channel(const Terms& terms, std::size_t channel);
 
 /// Weights from the fitted values instead of the readings, where the read variance is known: the shot part of the variance grows with

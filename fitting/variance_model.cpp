@@ -127,6 +127,32 @@ void DeviationCells::add(double f, double tan2_i, double square, double dof) noe
   dof_ += dof;
 }
 
+void DeviationCells::add(const DeviationCells& other) noexcept {
+  for (std::size_t k = 0; k < cells_.size(); ++k) {
+    cells_[k].dof += other.cells_[k].dof;
+    cells_[k].square += other.cells_[k].square;
+    for (std::size_t j = 0; j < cells_[k].regressor.size(); ++j) cells_[k].regressor[j] += other.cells_[k].regressor[j];
+  }
+  dof_ += other.dof_;
+}
+
+double information_criterion(const DeviationCells& cells, const VarianceModel& model) {
+  const std::array<double, 4> part{model.read, model.shot, model.gain * model.gain, model.tilt * model.tilt};
+  double largest = 0;
+  for (const DeviationCells::Cell& cell : cells.cells_)
+    if (cell.dof > 0) largest = std::max(largest, cell.square / cell.dof);
+  double sum = 0;
+  for (const DeviationCells::Cell& cell : cells.cells_) {
+    if (!(cell.dof > 0)) continue;
+    double v = 0;
+    for (std::size_t k = 0; k < part.size(); ++k) v += part[k] * cell.regressor[k] / cell.dof;
+    v = std::max({v, least_part * largest, std::numeric_limits<double>::min()});
+    sum += cell.dof * std::log(v) + cell.square / v;
+  }
+  for (const double value : part) sum += value > 0 ? std::log(std::max(1.0, cells.dof())) : 0;
+  return sum;
+}
+
 VarianceModel variance_model(const DeviationCells& cells) {
   std::vector<Sums> sums;
   double square = 0;

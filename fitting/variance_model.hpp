@@ -36,11 +36,14 @@ class DeviationCells {
   /// `square`: the deviation squared [1/sr²]; `dof`: its degrees of freedom (1 for a residual; n - 1 for n readings and their mean,
   /// with the mean square).
   void add(double f, double tan2_i, double square, double dof = 1) noexcept;
+  /// The sums of another set of cells beside these.
+  void add(const DeviationCells& other) noexcept;
   void clear() noexcept;
   double dof() const noexcept { return dof_; }
 
  private:
   friend VarianceModel variance_model(const DeviationCells& cells);
+  friend double information_criterion(const DeviationCells& cells, const VarianceModel& model);
   struct Cell {
     double dof = 0, square = 0;
     std::array<double, 4> regressor{};  ///< Σ dof · (1, f, f², f² tan²)
@@ -53,6 +56,10 @@ class DeviationCells {
 /// weights dof/(2 σ⁴). Of all sets of parts the one with the least Bayesian information criterion (Schwarz 1978) counts, so a part that
 /// the data do not ask for is exactly 0; with too few degrees of freedom for a choice the variance is a constant.
 VarianceModel variance_model(const DeviationCells& cells);
+
+/// Bayesian information criterion of a model: -2 ln of the likelihood of the deviations, up to a constant of theirs, and ln dof for
+/// every part above zero.
+double information_criterion(const DeviationCells& cells, const VarianceModel& model);
 
 /// What robust estimates need of normal deviations: E[min(Z², k²)] (Huber 1964, proposal 2).
 double truncated_second_moment(double k) noexcept;

@@ -11,7 +11,7 @@ namespace {
 std::string metric_list() { return "linear, linear-cos, log, log1p or cbrt"; }
 
 Json options_document(const fitting::FitOptions& fit, const ReadFlags& read) {
-  Json out = Json::object({{"model", fit.model}, {"metric", name(fit.metric)}});
+  Json out = Json::object({{"model", fit.model}, {"metric", name(fit.metric.value_or(fitting::Metric::linear))}});
   if (!fit.fixed.empty()) {
     Json fixed = Json::object();
     for (const auto& [parameter, value] : fit.fixed) fixed.set(parameter, value);
@@ -50,9 +50,10 @@ FitRequest FitFlags::request(const std::string& model) const {
   FitRequest out;
   out.fit = fit;
   out.fit.model = model;
-  const auto known = fitting::metric_named(metric);
-  if (!known) throw Error(ErrorKind::usage, {"--metric", "'" + metric + "'", metric_list()});
-  out.fit.metric = *known;
+  if (!metric.empty()) {
+    out.fit.metric = fitting::metric_named(metric);
+    if (!out.fit.metric) throw Error(ErrorKind::usage, {"--metric", "'" + metric + "'", metric_list()});
+  }
   model_info(model);
   for (const std::string& text : fixed) {
     const auto [name, value] = name_value(text, "--fix");

@@ -20,7 +20,7 @@ struct FitRequest {
 };
 
 struct FitFlags {
-  std::string metric = "linear";
+  std::string metric;  ///< empty: the default of FitOptions
   std::vector<std::string> fixed;
   fitting::FitOptions fit;
   ReadFlags read;

@@ -107,7 +107,9 @@ TEST_CASE("log1p and a mirror lobe are not collapsed") {
 }
 
 TEST_CASE("a fit of blocks is the fit of their samples") {
-  const FitResult blocks = fit(Table(90, 50, true, .01), {}), samples = fit(Table(90, 50, false, .01), {});
+  FitOptions by_name;
+  by_name.metric = Metric::linear;
+  const FitResult blocks = fit(Table(90, 50, true, .01), by_name), samples = fit(Table(90, 50, false, .01), by_name);
   REQUIRE(blocks.parameters.size() == samples.parameters.size());
   for (std::size_t k = 0; k < blocks.parameters.size(); ++k) {
     INFO(blocks.parameters[k].name);

@@ -2,6 +2,7 @@
 // Robust means and losses: exact on clean values, unmoved by wrong ones.
 #include "fitting/robust.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -18,6 +19,15 @@ std::vector<double> normal_values(std::size_t count, double mean, double sigma, 
   std::vector<double> values(count);
   for (double& value : values) value = normal(random);
   return values;
+}
+
+bool looks_clean(const std::vector<double>& values) {
+  std::vector<double> some;
+  const std::size_t stride = (values.size() + judges - 1) / judges;
+  for (std::size_t k = 0; k < values.size(); k += stride) some.push_back(values[k]);
+  const CleanRange range = clean_range(some, values.size());
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *least >= range.low && *most <= range.high;
 }
 
 double plain_mean(const std::vector<double>& values) {
