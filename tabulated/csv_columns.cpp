@@ -16,6 +16,12 @@ namespace {
 constexpr std::array extra_names{"repeat", "n", "time_s", "range", "x_mm", "y_mm"};
 constexpr std::array extra_prefixes{"c_", "measured_", "var_"};
 
+/// The unit in nm of a column of wavelengths, or 0 for any other name.
+double wavelength_unit_nm(std::string_view name) {
+  if (name == "wavelength_nm") return 1;
+  return name == "wavelength_um" ? 1000 : 0;
+}
+
 /// Gathers the layout; one call per name, from whichever side it comes.
 class LayoutBuilder {
  public:
@@ -37,6 +43,10 @@ class LayoutBuilder {
       layout_.in_radians[angle->index] = angle->in_radians;
       return {CsvTarget::Kind::angle, angle->index};
     }
+    if (wavelength_unit_nm(name) > 0) {
+      layout_.wavelength_unit_nm = wavelength_unit_nm(name);
+      return {CsvTarget::Kind::wavelength, 0};
+    }
     if (is_extra(name)) {
       layout_.extras.push_back(name);
       return {CsvTarget::Kind::extra, layout_.extras.size() - 1};
@@ -55,14 +65,15 @@ class LayoutBuilder {
     return is_extra_name(name) || std::find(metadata_.extras.begin(), metadata_.extras.end(), name) != metadata_.extras.end();
   }
   bool is_channel_name(const std::string& name) const {
-    return !name.empty() && !angle_named(name) && !is_extra(name) && !name.starts_with("u_");
+    return !name.empty() && !angle_named(name) && !(wavelength_unit_nm(name) > 0) && !is_extra(name) && !name.starts_with("u_");
   }
 
   CsvLayout& layout() { return layout_; }
 
  private:
-  /// An angle is the same quantity in either unit.
+  /// An angle or a wavelength is the same quantity in either unit.
   static std::string canonical(const std::string& name) {
+    if (wavelength_unit_nm(name) > 0) return "wavelength";
     const auto angle = angle_named(name);
     return angle ? angle_names[angle->index] : name;
   }
@@ -184,6 +195,9 @@ CsvLayout layout_of(const std::vector<std::string>& header, std::size_t column_c
   for (const std::string& name : metadata.extras)
     if (!builder.is_used(name))
       faults.add(faults.file(), fmt::format("no column {}", excerpt(name)), "one column per line '# extra.NUMBER'");
+  for (std::size_t k = 0; k < column_count; ++k)
+    if (builder.layout().columns[k].kind == CsvTarget::Kind::ignored)
+      builder.layout().left_out.push_back(header.empty() || header[k].empty() ? fmt::format("column {}", k + 1) : header[k]);
   require_complete(builder, options, faults);
   return std::move(builder.layout());
 }

@@ -19,7 +19,7 @@ enum AngleIndex : std::size_t { theta_i, phi_i, theta_o, phi_o };
 
 /// Where a number goes.
 struct CsvTarget {
-  enum class Kind { ignored, angle, channel, uncertainty, extra } kind = Kind::ignored;
+  enum class Kind { ignored, angle, channel, uncertainty, wavelength, extra } kind = Kind::ignored;
   std::size_t index = 0;  ///< AngleIndex, channel or position in `CsvLayout::extras`
 };
 
@@ -34,11 +34,14 @@ struct CsvLayout {
   bool azimuths_from_plane = false;  ///< no azimuths: signed zenith angles in one plane
   std::vector<std::string> channels;
   std::vector<std::string> extras;
+  std::vector<std::string> left_out;  ///< columns that nothing was made of, by name or as `column NUMBER`
   bool has_uncertainty = false;
+  double wavelength_unit_nm = 0;  ///< of the column that says which wavelength a row was measured at; 0: there is none
 };
 
 /// `header` has one name per column, or is empty where the file has no header row. Faults are added, never thrown.
 ///
+/// `wavelength_nm` or `wavelength_um` is a column of wavelengths: one row per wavelength, to become one channel each.
 /// Without a channel in `options.columns` every column that is no angle, no `u_<channel>` and no known extra is a channel (in a
 /// file of ours: those its metadata name). With one, other columns of the file are left out unless their names are reserved.
 CsvLayout layout_of(const std::vector<std::string>& header, std::size_t column_count, const ReadOptions& options,

@@ -4,25 +4,20 @@
 
 #include <array>
 #include <bit>
-
 #include <cmath>
-#include <limits>
 #include <map>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include "tabulated/csv.hpp"
 #include "tabulated/csv_table.hpp"
+#include "tabulated/csv_wavelengths.hpp"
 #include "tabulated/describe.hpp"
 #include "tabulated/direction_table.hpp"
+#include "tabulated/quantity.hpp"
 
 namespace gonio::tabulated {
 namespace {
-
-/// Below this cosine a value that holds cos theta_o says nothing about f: 1e-6 is an elevation of 0.2 seconds of arc, finer than any
-/// goniometer can set, and the cosine of 90° that came from rounded radians (6e-17 and more) lies under it.
-constexpr double vanishing_cosine = 1e-6;
 
 using RawDirections = std::array<double, 4>;
 
@@ -80,19 +75,6 @@ void subtract_blank(CsvTable& table, const std::filesystem::path& path, const Re
   }
 }
 
-/// What a value has to be multiplied with to become f; NaN where the cosine vanishes.
-double factor_to_f(Quantity quantity, Angle theta_o) {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  const double cos_o = std::fabs(theta_o.cos());
-  switch (quantity) {
-    case Quantity::f: return 1;
-    case Quantity::reflectance_factor: return std::numbers::inv_pi;
-    case Quantity::f_cos: return cos_o < vanishing_cosine ? unknown : 1 / cos_o;
-    case Quantity::signal_ratio: return cos_o < vanishing_cosine ? unknown : std::numbers::inv_pi / cos_o;
-  }
-  return unknown;
-}
-
 /// Turns the columns of angles into angles, and signed zenith angles into a zenith angle and an azimuth. Grids repeat few values:
 /// each angle is looked up among those seen last before its cosine is computed again.
 class AngleMaker {
@@ -141,7 +123,7 @@ class AngleMaker {
 };
 
 /// Samples whose value turned out unknown are taken out and counted.
-Dataset to_dataset(CsvTable&& table, const ReadOptions& options) {
+Dataset to_dataset(CsvTable&& table, const ReadOptions& options, FaultList& faults) {
   Dataset out = std::move(table.metadata.description);
   if (!table.metadata.ours)
     for (const std::string& name : table.layout.channels) out.channels.push_back(single_channel(name).front());
@@ -163,6 +145,7 @@ Dataset to_dataset(CsvTable&& table, const ReadOptions& options) {
     }
     for (auto& u : table.u) u[kept] = u[row] * factor;
     for (auto& extra : table.extras) extra[kept] = extra[row];
+    if (!table.wavelength_nm.empty()) table.wavelength_nm[kept] = table.wavelength_nm[row];
     if (!known) {
       ++out.masked.nan;
       continue;
@@ -181,7 +164,9 @@ Dataset to_dataset(CsvTable&& table, const ReadOptions& options) {
       if (name == fmt::format("c_{}", component.name)) owner = &component;
     (owner != nullptr ? owner->sensitivity : out.extra[name]) = std::move(table.extras[k]);
   }
-  return out;
+  if (table.wavelength_nm.empty()) return out;
+  table.wavelength_nm.resize(kept);
+  return channels_by_wavelength(std::move(out), table.wavelength_nm, faults);
 }
 
 }  // namespace
@@ -192,12 +177,17 @@ Dataset read_csv(const std::filesystem::path& path, const ReadOptions& options) 
   if (table.metadata.ours && options.quantity && *options.quantity != Quantity::f)
     faults.add(path.string(), fmt::format("a file that says it holds f, to be read as {}", name(*options.quantity)),
                "no --quantity for a file of ours");
-  if (options.blank) subtract_blank(table, *options.blank, options, faults);
+  if (options.blank && table.layout.wavelength_unit_nm > 0)
+    faults.add(path.string(), "a column of wavelengths and a blank", "one of the two: a blank holds at one wavelength");
+  else if (options.blank)
+    subtract_blank(table, *options.blank, options, faults);
   faults.raise();
+  const std::vector<std::string> left_out = table.layout.left_out;
 
   const bool ours = table.metadata.ours;
   const std::size_t row_count = table.row_count;
-  Dataset dataset = to_dataset(std::move(table), options);
+  Dataset dataset = to_dataset(std::move(table), options, faults);
+  faults.raise();
   if (dataset.size() == 0) {
     const MaskedCounts& masked = dataset.masked;
     throw Error(ErrorKind::input, {path.string(),
@@ -208,6 +198,7 @@ Dataset read_csv(const std::filesystem::path& path, const ReadOptions& options) 
   if (!ours) {
     dataset.provenance["source"] = path.filename().string();
     if (options.quantity) dataset.provenance["source_quantity"] = name(*options.quantity);
+    if (!left_out.empty()) dataset.provenance["columns_left_out"] = fmt::format("{}", fmt::join(left_out, ", "));
     if (options.blank) dataset.provenance["blank"] = options.blank->filename().string();
   }
   return dataset;

@@ -61,6 +61,7 @@ class RowReader {
       case CsvTarget::Kind::channel: return values_[target.index];
       case CsvTarget::Kind::uncertainty: return u_[target.index];
       case CsvTarget::Kind::extra: return extras_[target.index];
+      case CsvTarget::Kind::wavelength: return wavelength_;
       case CsvTarget::Kind::ignored: break;
     }
     return nowhere_;
@@ -70,7 +71,7 @@ class RowReader {
     const auto all = [&](auto&& predicate) { return std::all_of(values_.begin(), values_.end(), predicate); };
     if (missing_ && all([&](double value) { return value == *missing_; })) return count(table_.masked.missing);
     if (all([](double value) { return std::isnan(value); }) ||
-        std::any_of(angles_.begin(), angles_.end(), [](double angle) { return std::isnan(angle); }))
+        std::any_of(angles_.begin(), angles_.end(), [](double angle) { return std::isnan(angle); }) || std::isnan(wavelength_))
       return count(table_.masked.nan);
     const bool wo_may_be_below = table_.metadata.description.side == Side::transmission;
     if (is_beyond_horizon(theta_i) || (!wo_may_be_below && is_beyond_horizon(theta_o))) return count(table_.masked.below_horizon);
@@ -97,6 +98,12 @@ class RowReader {
     append(table_.values, values_);
     append(table_.u, u_);
     append(table_.extras, extras_);
+    if (!(layout_.wavelength_unit_nm > 0)) return;
+    if (wavelength_ <= 0) faults_.add_at(line, fmt::format("a wavelength of {}", wavelength_), "a positive wavelength");
+    // Micrometres are written with few digits: 0.351 um is 351 nm, not 350.99999999999994.
+    constexpr double digits = 1e9;
+    const double nm = wavelength_ * layout_.wavelength_unit_nm;
+    table_.wavelength_nm.push_back(layout_.wavelength_unit_nm == 1 ? nm : std::round(nm * digits) / digits);
   }
 
   CsvTable& table_;
@@ -105,7 +112,7 @@ class RowReader {
   FaultList& faults_;
   std::array<double, 4> angles_{};
   std::vector<double> values_, u_, extras_;
-  double nowhere_ = 0;
+  double wavelength_ = 0, nowhere_ = 0;
 };
 
 }  // namespace

@@ -19,6 +19,7 @@ struct CsvTable {
   std::vector<std::vector<double>> values;    ///< [channel][row]
   std::vector<std::vector<double>> u;         ///< [channel][row], or empty
   std::vector<std::vector<double>> extras;    ///< [layout.extras][row]
+  std::vector<double> wavelength_nm;          ///< [row], or empty
   MaskedCounts masked;
   std::size_t row_count = 0;  ///< rows of the file, masked ones included
 

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "brdf/error.hpp"
+#include "tabulated/alta.hpp"
 #include "tabulated/brdf_exr.hpp"
 #include "tabulated/csv.hpp"
 #include "tabulated/fit_json.hpp"
@@ -63,6 +64,7 @@ const std::vector<Format>& formats() {
        write_samples_as_exr},
       {"rgl", "material file of the RGL database, RGB or spectral (.bsdf, read only)", recognises_rgl, open_rgl, nullptr},
       {"fit-json", "the document of a fit, as the model it describes (read only)", recognises_fit_json, open_fit_json, nullptr},
+      {"alta", "samples as text of the ALTA library, with its #DIM and #PARAM lines (read only)", recognises_alta, open_alta, nullptr},
       {"csv", "samples as text: theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg, values and uncertainties", recognises_csv, open_csv,
        write_samples_as_csv},
   };

@@ -43,6 +43,9 @@ int import_verb(const Arguments& arguments, Console& console) {
   const tabulated::Format& format = format_of_name(out);
   const tabulated::Opened opened = tabulated::open_brdf(in, flags.options());
   console.note_masked(in, opened.masked);
+  if (opened.dataset)
+    if (const auto left_out = opened.dataset->provenance.find("columns_left_out"); left_out != opened.dataset->provenance.end())
+      console.note(fmt::format("{}: columns left out: {}", in, left_out->second));
   format.write(opened, out, {});
   report(console, in, out, format, opened);
   return 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // gonio info: what a file is.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -79,19 +80,19 @@ Facts facts_of_setup(const std::string& path) {
 Facts facts_of_brdf(const std::string& path, const ReadFlags& flags) {
   const tabulated::Opened opened = tabulated::open_brdf(path, flags.options());
   Facts facts{{"kind", opened.format}};
-  const Channels* channels = opened.dataset ? &opened.dataset->channels : opened.brdf ? &opened.brdf->channels() : nullptr;
-  if (channels != nullptr) {
-    std::string names;
-    for (const Channel& channel : *channels) names += (names.empty() ? "" : ", ") + channel.name;
-    facts.emplace_back("channels", names);
-  }
   facts.insert(facts.end(), opened.info.begin(), opened.info.end());
+  const auto add = [&](const char* key, const std::string& value) {  // formats describe themselves as far as they can
+    if (std::none_of(facts.begin(), facts.end(), [&](const auto& fact) { return fact.first == key; })) facts.emplace_back(key, value);
+  };
+  if (opened.brdf) {
+    std::string names;
+    for (const Channel& channel : opened.brdf->channels()) names += (names.empty() ? "" : ", ") + channel.name;
+    add("channels", names);
+  }
   if (opened.masked.total() > 0)
-    facts.emplace_back("no measurement", fmt::format("{} nan, {} missing, {} below the horizon, {} blocked", opened.masked.nan,
-                                                     opened.masked.missing, opened.masked.below_horizon, opened.masked.blocked));
-  if (opened.dataset)
-    for (const auto& [key, value] : opened.dataset->provenance) facts.emplace_back(key, value);
-  facts.emplace_back("simulated", opened.simulated ? "yes" : "no");
+    add("masked", fmt::format("{} ({} nan, {} missing, {} below horizon, {} blocked)", opened.masked.total(), opened.masked.nan,
+                              opened.masked.missing, opened.masked.below_horizon, opened.masked.blocked));
+  add("simulated", opened.simulated ? "yes" : "no");
   return facts;
 }
 
