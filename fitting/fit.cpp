@@ -26,32 +26,58 @@ void require_usable(const FitOptions& options, const ModelInfo& info) {
   std::vector<Fault> faults;
   std::string known;
   for (const Parameter& parameter : info.parameters) known += (known.empty() ? "" : ", ") + std::string(parameter.name);
-  for (const auto& [name, value] : options.fixed) {
-    const auto parameter =
-        std::find_if(info.parameters.begin(), info.parameters.end(), [&name = name](const Parameter& p) { return p.name == name; });
-    if (parameter == info.parameters.end())
-      faults.push_back({"fixed parameter", "'" + name + "'", "one of " + known});
-    else if (!(value >= parameter->lower && value <= parameter->upper))
+  const auto find = [&](const std::string& what, const std::string& name) {
+    const auto found = std::find_if(info.parameters.begin(), info.parameters.end(), [&](const Parameter& p) { return p.name == name; });
+    if (found != info.parameters.end()) return &*found;
+    faults.push_back({what, "'" + name + "'", "one of " + known});
+    return static_cast<const Parameter*>(nullptr);
+  };
+  for (const auto& [name, value] : options.fixed)
+    if (const Parameter* parameter = find("fixed parameter", name); parameter && !(value >= parameter->lower && value <= parameter->upper))
       faults.push_back({"fixed parameter " + name, std::to_string(value), "a number within the bounds of the model"});
+  for (const auto& [name, bounds] : options.bounds) {
+    const Parameter* parameter = find("bounds", name);
+    if (!parameter) continue;
+    const std::string found = std::to_string(bounds.low) + " to " + std::to_string(bounds.high);
+    if (options.fixed.count(name)) faults.push_back({"bounds of " + name, found, "none, or the parameter not fixed"});
+    if (!(bounds.low < bounds.high && bounds.low >= parameter->lower && bounds.high <= parameter->upper))
+      faults.push_back({"bounds of " + name, found, "a range within the bounds of the model"});
   }
   if (!(options.confidence > 0 && options.confidence < 1))
     faults.push_back({"confidence", std::to_string(options.confidence), "a number between 0 and 1"});
-  if (info.nonlinear_count() > 1)
-    faults.push_back({"model", std::to_string(info.nonlinear_count()) + " nonlinear parameters", "one at most"});
   if (!faults.empty()) throw Error(ErrorKind::usage, "the fit of model '" + options.model + "' cannot be set up", faults);
 }
 
 SolveOptions solve_options(const FitOptions& options, const ModelKernel& kernel, std::size_t channels) {
-  constexpr double free = std::numeric_limits<double>::quiet_NaN();
-  const auto held = [&](const Parameter& parameter) {
-    const auto found = options.fixed.find(std::string(parameter.name));
-    return found == options.fixed.end() ? free : found->second;
+  constexpr double none = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const auto& parameters = kernel.info->parameters;
+  const auto wanted = [&](const Parameter& parameter) {
+    const auto held = options.fixed.find(std::string(parameter.name));
+    const auto bounds = options.bounds.find(std::string(parameter.name));
+    const bool bounded = bounds != options.bounds.end();
+    return Wanted{held == options.fixed.end() ? none : held->second, bounded ? bounds->second.low : none,
+                  bounded ? bounds->second.high : none};
   };
   SolveOptions out;
-  std::vector<double> linear;
-  for (std::size_t k = 0; k < kernel.linear; ++k) linear.push_back(held(kernel.info->parameters[k]));
-  out.held.assign(channels, linear);
-  out.held_s = kernel.nonlinear > 0 ? held(kernel.info->parameters[kernel.linear]) : free;
+  LinearLimits limits;
+  std::vector<bool> free;
+  bool bounded = false;
+  for (std::size_t k = 0; k < kernel.linear; ++k) {
+    const Wanted own = wanted(parameters[k]);
+    limits.held.push_back(own.held);
+    limits.lower.push_back(std::isnan(own.lower) ? 0 : own.lower);
+    limits.upper.push_back(std::isnan(own.upper) ? infinity : own.upper);
+    bounded = bounded || !std::isnan(own.lower);
+    free.push_back(std::isnan(own.held) && std::isnan(own.lower));
+  }
+  if (!bounded) limits.lower.clear(), limits.upper.clear();
+  out.limits.assign(channels, limits);
+  for (std::size_t j = 0; j < kernel.nonlinear; ++j) out.nonlinear.push_back(wanted(parameters[kernel.linear + j]));
+  for (const ModelTerm& term : kernel.info->terms) {
+    const std::size_t lobe = term.linear + (term.first_basis == 0 ? 1 : 0), end = term.linear + term.model->linear_count - term.first_basis;
+    out.alike.push_back(std::all_of(free.begin() + static_cast<std::ptrdiff_t>(std::min(lobe, end)),
+                                    free.begin() + static_cast<std::ptrdiff_t>(end), [](bool is_free) { return is_free; }));
+  }
   out.confidence = options.confidence;
   out.threads = options.threads;
   return out;
@@ -69,12 +95,6 @@ FittedParameter fitted(const Parameter& parameter, const Estimate& estimate, std
           parameter.upper};
 }
 
-void add_other_minima(FitResult& result, const Solution& solution, const ModelKernel& kernel) {
-  if (kernel.nonlinear == 0) return;
-  for (const OtherSolution& other : solution.others)
-    result.other_minima.push_back({{other.s}, other.linear, other.cost, other.cost / solution.cost});
-}
-
 /// Solutions in channel order: one for all, or one per channel.
 void assemble(FitResult& result, const std::vector<Solution>& solutions, const Terms& terms) {
   const ModelKernel& kernel = terms.kernel;
@@ -85,31 +105,33 @@ void assemble(FitResult& result, const std::vector<Solution>& solutions, const T
   result.status = Status::converged;
   std::size_t channel = 0;
   for (const Solution& solution : solutions) {
+    const auto own = solutions.size() > 1 ? std::optional(channel) : std::nullopt;
     if (!solution.converged && result.status == Status::converged) {
       result.status = Status::not_converged;
       result.reason = solution.reason;
     }
+    for (const OtherSolution& other : solution.others)
+      result.other_minima.push_back({own, other.theta, other.linear, other.cost, other.cost / solution.cost});
     for (std::size_t c = 0; c < solution.linear.size(); ++c, ++channel) {
       std::vector<double> values = solution.linear[c];
-      if (kernel.nonlinear > 0) values.push_back(solution.s);
+      values.insert(values.end(), solution.theta.begin(), solution.theta.end());
       result.values.push_back(std::move(values));
       for (std::size_t k = 0; k < kernel.linear; ++k)
         result.parameters.push_back(fitted(parameters[k], solution.linear_estimate[c][k], channel));
+      covariance.push_back(solution.covariance_of(c));
     }
-    covariance.insert(covariance.end(), solution.covariance.begin(), solution.covariance.end());
     cost += solution.cost;
     dof += solution.dof;
     budget = std::max(budget, solution.budget);
-    add_other_minima(result, solution, kernel);
   }
   for (std::size_t k = 0; k < solutions.size(); ++k)
-    if (solutions[k].s_estimate)
-      result.parameters.push_back(
-          fitted(parameters[kernel.linear], *solutions[k].s_estimate, solutions.size() > 1 ? std::optional(k) : std::nullopt));
+    for (std::size_t j = 0; j < kernel.nonlinear; ++j)
+      result.parameters.push_back(fitted(parameters[kernel.linear + j], solutions[k].nonlinear_estimate[j],
+                                         solutions.size() > 1 ? std::optional(k) : std::nullopt));
   for (const ChannelTerms& data : terms.channel) signal_to_noise2 += data.weighted_value2, count += data.count;
   if (terms.weighted && dof >= 1) result.errors.chi2_per_dof = cost / dof;
   result.checks = {energy_bound(result, kernel, covariance), at_bound(result), adequacy(cost, dof, signal_to_noise2, count, terms.weighted),
-                   second_minimum(result, budget, solutions.front().cost)};
+                   second_minimum(result, *kernel.info, budget, solutions.front().cost)};
 }
 
 }  // namespace

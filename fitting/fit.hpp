@@ -31,14 +31,20 @@ enum class IntervalKind { interval, lower_bound, upper_bound, unidentified, fixe
 const char* name(Status status) noexcept;
 const char* name(IntervalKind kind) noexcept;
 
+/// Ends of a search, included.
+struct Bounds {
+  double low, high;
+};
+
 struct FitOptions {
   std::string model = "blinn-phong";
   std::optional<Metric> metric;  ///< unset: linear
   Weights weights = Weights::automatic;
-  std::optional<Robust> robust;         ///< unset: automatic where the weights are automatic and the metric is unset, else none
-  bool per_channel = false;             ///< nonlinear parameters per channel too
-  std::map<std::string, double> fixed;  ///< parameters held at a value
-  double confidence = 0.95;             ///< of the profile intervals
+  std::optional<Robust> robust;          ///< unset: automatic where the weights are automatic and the metric is unset, else none
+  bool per_channel = false;              ///< nonlinear parameters per channel too
+  std::map<std::string, double> fixed;   ///< parameters held at a value
+  std::map<std::string, Bounds> bounds;  ///< narrower than the model's, for any parameter that is not fixed
+  double confidence = 0.95;              ///< of the profile intervals
   int threads = 2;
 };
 
@@ -52,9 +58,10 @@ struct FittedParameter {
   double lower = 0, upper = 0;  ///< bounds of the search
 };
 
-/// Another local minimum of the profile over the nonlinear parameter.
+/// Another local minimum of the profile over the nonlinear parameters.
 struct OtherMinimum {
-  std::vector<double> nonlinear;
+  std::optional<std::size_t> channel;       ///< of a fit channel by channel; nullopt: all channels together
+  std::vector<double> nonlinear;            ///< in the order of the model
   std::vector<std::vector<double>> linear;  ///< [channel][k]
   double cost = 0, cost_ratio = 0;          ///< cost over the best cost
 };
@@ -83,9 +90,11 @@ struct FitResult {
   double fit_s = 0;
 };
 
-/// Global in the nonlinear parameter: linear parameters are eliminated by non-negative least squares, the profile over the exponent is
-/// scanned on [1e-3, 1e9], every local minimum refined, and the transformed metrics polished by Ceres from each of them.
-/// Never throws for numerical outcomes: see `status`. Error(usage) for an unknown model or a fixed parameter it does not have.
+/// Global in the nonlinear parameters: linear parameters are eliminated by bounded least squares, the profile over the others is scanned
+/// where the model says (global_search.hpp), every local minimum refined, and the transformed metrics polished by Ceres from each of
+/// them. Terms of the same model in a sum stand in order, the broad lobe first.
+/// Never throws for numerical outcomes: see `status`. Error(usage) for an unknown model, and for a fixed parameter or bounds it does not
+/// have.
 FitResult fit(const Observations& observations, const FitOptions& options);
 
 }  // namespace gonio::fitting

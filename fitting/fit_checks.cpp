@@ -101,23 +101,26 @@ Check adequacy(double chi2, double dof, double signal_to_noise2, std::size_t n, 
   return check;
 }
 
-Check second_minimum(const FitResult& result, double budget, double best_cost) {
+Check second_minimum(const FitResult& result, const ModelInfo& model, double budget, double best_cost) {
   Check check;
   check.id = "second_minimum";
   check.n = result.other_minima.size();
   if (result.other_minima.empty()) {
     check.verdict = Verdict::pass;
-    check.detail = "the profile over the exponent has one minimum";
+    check.detail = "the profile over the nonlinear parameters has one minimum";
     return check;
   }
   const auto nearest = std::min_element(result.other_minima.begin(), result.other_minima.end(),
                                         [](const OtherMinimum& a, const OtherMinimum& b) { return a.cost < b.cost; });
   const bool near = nearest->cost <= best_cost + near_budgets * budget;
-  check.effect = nearest->nonlinear.front();
+  if (std::isfinite(nearest->cost_ratio)) check.effect = nearest->cost_ratio;
   check.unit = std::string("1");
   check.verdict = near ? Verdict::warn : Verdict::pass;
-  check.detail = fmt::format("another local minimum at an exponent of {:.4g} costs {:.3g} times as much{}; it often means a second lobe",
-                             nearest->nonlinear.front(), nearest->cost_ratio, near ? ", hardly worse than the best" : "");
+  std::string where;
+  for (std::size_t j = 0; j < nearest->nonlinear.size(); ++j)
+    where += fmt::format("{}{} = {:.4g}", j == 0 ? "" : ", ", model.parameters[model.linear_count + j].name, nearest->nonlinear[j]);
+  check.detail = fmt::format("another local minimum at {} costs {:.3g} times as much{}; it often means a second lobe", where,
+                             nearest->cost_ratio, near ? ", hardly worse than the best" : "");
   return check;
 }
 

@@ -16,7 +16,7 @@ Check at_bound(const FitResult& result);
 /// adequacy: χ² against its degrees of freedom. The effect is the relative misfit beyond the stated noise, the τ with
 /// variance u² + (τ f)² that would explain χ²: τ² = (χ² - dof) / Σ (f/u)².
 Check adequacy(double chi2, double dof, double signal_to_noise2, std::size_t n, bool has_uncertainty);
-/// second_minimum: another local minimum of the profile that the data hardly tell from the best; its exponent.
-Check second_minimum(const FitResult& result, double budget, double best_cost);
+/// second_minimum: another local minimum of the profile that the data hardly tell from the best. The effect is its cost over the best.
+Check second_minimum(const FitResult& result, const ModelInfo& model, double budget, double best_cost);
 
 }  // namespace gonio::fitting

@@ -2,7 +2,10 @@
 #include "fitting/linear_part.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <optional>
 
 namespace gonio::fitting {
@@ -16,31 +19,30 @@ constexpr int most = static_cast<int>(max_linear);
 using Dense = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1>;
 
-struct Subset {
-  std::vector<std::size_t> columns;
-  Vector x;          ///< least squares on the subset
-  Dense covariance;  ///< (RᵀR)⁻¹ of the subset
-  double square = 0;
+/// Where the unknowns are: a value for those held or at a bound, NaN for those that are free to move.
+using Places = std::array<double, max_linear>;
 
-  bool feasible() const { return columns.empty() || x.minCoeff() >= 0; }
+struct Subset {
+  std::vector<std::size_t> columns;  ///< the free ones
+  Vector x;                          ///< least squares on the subset
+  Dense covariance;                  ///< (RᵀR)⁻¹ of the subset
+  double square = 0;
 };
 
 auto column_of(const Matrix& matrix, std::size_t k) {
   return Eigen::Map<const Eigen::VectorXd>(matrix.column(k).data(), static_cast<Eigen::Index>(matrix.rows()));
 }
 
-Vector remaining_rhs(const SmallSystem& system) {
-  Vector rhs = Eigen::Map<const Eigen::VectorXd>(system.rhs.data(), static_cast<Eigen::Index>(system.rhs.size()));
-  for (std::size_t k = 0; k < system.held.size(); ++k)
-    if (!std::isnan(system.held[k])) rhs -= column_of(system.r, k) * system.held[k];
-  return rhs;
-}
-
-/// Least squares on the columns of a bit mask; none if they are dependent.
-std::optional<Subset> solve_subset(const SmallSystem& system, const Vector& rhs, unsigned mask) {
+/// Least squares on the free unknowns; none if their columns are dependent.
+std::optional<Subset> solve_subset(const SmallSystem& system, const Places& places, bool with_covariance) {
   Subset subset;
-  for (std::size_t k = 0; k < system.r.columns(); ++k)
-    if (mask & (1u << k)) subset.columns.push_back(k);
+  Vector rhs = Eigen::Map<const Eigen::VectorXd>(system.rhs.data(), static_cast<Eigen::Index>(system.rhs.size()));
+  for (std::size_t k = 0; k < system.r.columns(); ++k) {
+    if (std::isnan(places[k]))
+      subset.columns.push_back(k);
+    else if (places[k] != 0)
+      rhs -= column_of(system.r, k) * places[k];
+  }
   const auto n = static_cast<Eigen::Index>(subset.columns.size());
   if (n == 0) {
     subset.square = rhs.squaredNorm();
@@ -60,19 +62,80 @@ std::optional<Subset> solve_subset(const SmallSystem& system, const Vector& rhs,
   const Vector scaled = qr.solve(rhs);
   subset.square = (rhs - a * scaled).squaredNorm();
   subset.x = scaled.cwiseQuotient(lengths);
-  const Dense upper = qr.matrixR().topLeftCorner(n, n);
-  const Dense inverse = upper.triangularView<Eigen::Upper>().solve(Dense::Identity(n, n));
-  const Dense permuted = qr.colsPermutation() * inverse;
-  const Dense unscaled = lengths.cwiseInverse().asDiagonal() * permuted;
-  subset.covariance = unscaled * unscaled.transpose();
+  if (with_covariance) {
+    const Dense upper = qr.matrixR().topLeftCorner(n, n);
+    const Dense inverse = upper.triangularView<Eigen::Upper>().solve(Dense::Identity(n, n));
+    const Dense permuted = qr.colsPermutation() * inverse;
+    const Dense unscaled = lengths.cwiseInverse().asDiagonal() * permuted;
+    subset.covariance = unscaled * unscaled.transpose();
+  }
   return subset;
 }
 
-unsigned free_mask(const SmallSystem& system) {
-  unsigned mask = 0;
-  for (std::size_t k = 0; k < system.held.size(); ++k)
-    if (std::isnan(system.held[k])) mask |= 1u << k;
-  return mask;
+Places places_of(const SmallSystem& system) {
+  Places places;
+  places.fill(std::numeric_limits<double>::quiet_NaN());
+  std::copy(system.held.begin(), system.held.end(), places.begin());
+  return places;
+}
+
+/// The best solution so far and the sets it has been looked for in.
+struct Search {
+  const SmallSystem& system;
+  Bounded best{{}, std::numeric_limits<double>::infinity()};
+  std::vector<Places> seen;
+
+  void visit(const Places& places) {
+    const auto same = [&](const Places& other) { return std::memcmp(other.data(), places.data(), sizeof places) == 0; };
+    if (std::any_of(seen.begin(), seen.end(), same)) return;
+    const auto subset = solve_subset(system, places, false);
+    if (subset && !(subset->square < best.square)) return;
+    bool feasible = subset.has_value();
+    const auto pin = [&](std::size_t k, double value) {
+      Places next = places;
+      next[k] = value;
+      visit(next);
+    };
+    if (!subset) {
+      seen.push_back(places);
+      for (std::size_t k = 0; k < system.r.columns(); ++k) {
+        if (!std::isnan(places[k])) continue;
+        pin(k, system.low(k));
+        if (std::isfinite(system.high(k))) pin(k, system.high(k));
+      }
+      return;
+    }
+    for (std::size_t j = 0; j < subset->columns.size(); ++j) {
+      const std::size_t k = subset->columns[j];
+      const double x = subset->x[static_cast<Eigen::Index>(j)];
+      if (x >= system.low(k) && x <= system.high(k)) continue;
+      if (feasible) seen.push_back(places);
+      feasible = false;
+      pin(k, x < system.low(k) ? system.low(k) : system.high(k));
+    }
+    if (!feasible) return;
+    best.square = subset->square;
+    best.x.assign(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(system.r.columns()));
+    for (std::size_t j = 0; j < subset->columns.size(); ++j) best.x[subset->columns[j]] = subset->x[static_cast<Eigen::Index>(j)];
+  }
+};
+
+/// Calls `use` for every choice of free unknowns and of bounds for the others.
+template <class Use>
+void for_each_choice(const SmallSystem& system, std::size_t from, Places& places, Use&& use) {
+  while (from < system.r.columns() && !std::isnan(places[from])) ++from;
+  if (from == system.r.columns()) {
+    use(places);
+    return;
+  }
+  const double free = places[from];
+  for_each_choice(system, from + 1, places, use);
+  for (const double bound : {system.low(from), system.high(from)})
+    if (std::isfinite(bound)) {
+      places[from] = bound;
+      for_each_choice(system, from + 1, places, use);
+    }
+  places[from] = free;
 }
 
 }  // namespace
@@ -106,54 +169,46 @@ void Triangle::add(Matrix& block, std::size_t rows) {
   }
 }
 
-NonNegative solve_non_negative(const SmallSystem& system) {
-  const Vector rhs = remaining_rhs(system);
-  NonNegative best;
-  best.square = std::numeric_limits<double>::infinity();
-  const unsigned all = free_mask(system);
-  for (unsigned mask = all;; mask = (mask - 1) & all) {
-    const auto subset = solve_subset(system, rhs, mask);
-    if (subset && subset->square < best.square && subset->feasible()) {
-      best.square = subset->square;
-      best.x.assign(system.r.columns(), 0.0);
-      for (std::size_t k = 0; k < subset->columns.size(); ++k) best.x[subset->columns[k]] = subset->x[static_cast<Eigen::Index>(k)];
-      for (std::size_t k = 0; k < system.held.size(); ++k)
-        if (!std::isnan(system.held[k])) best.x[k] = system.held[k];
-    }
-    if (mask == 0) break;
-  }
-  return best;
+Bounded solve_bounded(const SmallSystem& system) {
+  Search search{system, {{}, std::numeric_limits<double>::infinity()}, {}};
+  search.visit(places_of(system));
+  return search.best;
 }
 
 Range range_of(const SmallSystem& system, std::size_t k, double budget) {
-  const Vector rhs = remaining_rhs(system);
   Range range;
   const auto include = [&](double value) {
     range.low = std::min(range.low, value);
     range.high = std::max(range.high, value);
   };
-  const unsigned all = free_mask(system), own = 1u << k;
-  for (unsigned mask = all;; mask = (mask - 1) & all) {
-    const auto subset = solve_subset(system, rhs, mask);
-    if (subset && subset->square <= budget) {
-      if (!(mask & own)) {
-        if (subset->feasible()) include(0);
-      } else {
-        Eigen::Index at = 0;
-        while (subset->columns[static_cast<std::size_t>(at)] != k) ++at;
-        const double variance = subset->covariance(at, at);
-        const double reach = std::sqrt((budget - subset->square) * variance);
-        // The other unknowns of the set move along with x_k; where one of them would turn negative a smaller set has the end.
-        for (const double side : {-1.0, 1.0}) {
-          const Vector end = subset->x + subset->covariance.col(at) * (side * reach / variance);
-          if (end.minCoeff() >= 0) include(end[at]);
-        }
-      }
+  const auto feasible = [&](const Subset& subset, const Vector& x) {
+    for (std::size_t j = 0; j < subset.columns.size(); ++j) {
+      const double value = x[static_cast<Eigen::Index>(j)];
+      if (!(value >= system.low(subset.columns[j]) && value <= system.high(subset.columns[j]))) return false;
     }
-    if (mask == 0) break;
-  }
+    return true;
+  };
+  const auto look = [&](const Places& places) {
+    const auto subset = solve_subset(system, places, true);
+    if (!subset || subset->square > budget) return;
+    if (!std::isnan(places[k])) {
+      if (feasible(*subset, subset->x)) include(places[k]);
+      return;
+    }
+    Eigen::Index at = 0;
+    while (subset->columns[static_cast<std::size_t>(at)] != k) ++at;
+    const double variance = subset->covariance(at, at);
+    const double reach = std::sqrt((budget - subset->square) * variance);
+    // The other unknowns of the set move along with x_k; where one of them would leave its bounds a smaller set has the end.
+    for (const double side : {-1.0, 1.0}) {
+      const Vector end = subset->x + subset->covariance.col(at) * (side * reach / variance);
+      if (feasible(*subset, end)) include(end[at]);
+    }
+  };
+  Places places = places_of(system);
+  for_each_choice(system, 0, places, look);
   // A column that no sample sees limits nothing.
-  if (!range.empty() && !(length(system.r.column(k)) > 0)) range = {0, std::numeric_limits<double>::infinity()};
+  if (!range.empty() && !(length(system.r.column(k)) > 0)) range = {system.low(k), system.high(k)};
   return range;
 }
 

@@ -50,8 +50,8 @@ class Triangle {
   Matrix r_;
 };
 
-/// min |R x - rhs|² over x >= 0, where some x may be held at a value. `square` is the least value.
-struct NonNegative {
+/// min |R x - rhs|² over lower <= x <= upper, where some x may be held at a value. `square` is the least value.
+struct Bounded {
   std::vector<double> x;
   double square = 0;
 };
@@ -61,13 +61,19 @@ struct SmallSystem {
   Matrix r;
   std::vector<double> rhs;
   std::vector<double> held;
+  std::vector<double> lower = {}, upper = {};  ///< empty: 0 and no bound
+
+  double low(std::size_t k) const { return lower.empty() ? 0 : lower[k]; }
+  double high(std::size_t k) const { return upper.empty() ? std::numeric_limits<double>::infinity() : upper[k]; }
 };
 
-/// By enumeration of the active sets: exact for the few unknowns a reflectance model has. Sets whose columns are linearly dependent
-/// are left out; a smaller set attains the same value.
-NonNegative solve_non_negative(const SmallSystem& system);
+/// Exact, by branching: if the least squares on a set of unknowns leave their bounds, at least one of those that do lies at its violated
+/// bound in the solution (else a step towards the least squares would stay within the bounds and lower the cost). Sets whose columns are
+/// linearly dependent have a solution with one of them at a bound.
+Bounded solve_bounded(const SmallSystem& system);
 
-/// The range of x_k over all x >= 0 with |R x - rhs|² <= budget. low 0 means the bound is reached, high infinity that nothing limits x_k.
+/// The range of x_k over all x within their bounds with |R x - rhs|² <= budget, by enumeration of the sets of unknowns at a bound. An end
+/// at the bound of x_k is that bound; high infinity: nothing limits x_k.
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   bool empty() const noexcept { return low > high; }

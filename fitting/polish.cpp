@@ -18,10 +18,10 @@ class Rows final : public ceres::CostFunction {
       : terms_(terms), channel_(channel), begin_(begin), end_(end) {
     set_num_residuals(static_cast<int>(end - begin));
     mutable_parameter_block_sizes()->push_back(static_cast<int>(terms.kernel.linear));
-    mutable_parameter_block_sizes()->push_back(1);
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(std::max<std::size_t>(terms.kernel.nonlinear, 1)));
   }
   bool Evaluate(double const* const* parameters, double* out, double** jacobians) const override {
-    return residuals(terms_, channel_, begin_, end_, parameters[0], parameters[1][0], out, jacobians ? jacobians[0] : nullptr,
+    return residuals(terms_, channel_, begin_, end_, parameters[0], parameters[1], out, jacobians ? jacobians[0] : nullptr,
                      jacobians ? jacobians[1] : nullptr);
   }
 
@@ -32,20 +32,20 @@ class Rows final : public ceres::CostFunction {
 
 }  // namespace
 
-bool residuals(const Terms& terms, std::size_t channel, std::size_t begin, std::size_t end, const double* linear, double s, double* out,
-               double* by_linear, double* by_s) {
-  const std::size_t rows = end - begin, count = terms.kernel.linear;
-  std::vector<double> columns(count * rows), slopes(count * rows);
-  terms.kernel.basis_and_slopes(std::span(terms.geometry).subspan(begin, rows), &s, columns.data(), slopes.data(), rows);
+bool residuals(const Terms& terms, std::size_t channel, std::size_t begin, std::size_t end, const double* linear, const double* theta,
+               double* out, double* by_linear, double* by_theta) {
+  const std::size_t rows = end - begin, count = terms.kernel.linear, nonlinear = terms.kernel.nonlinear;
+  std::vector<double> columns(count * rows), slopes(nonlinear * count * rows);
+  if (by_theta)
+    terms.basis_and_slopes(begin, end, theta, columns.data(), slopes.data(), rows);
+  else
+    terms.basis(begin, end, theta, columns.data(), rows);
   const ChannelTerms& data = terms.channel[channel];
   for (std::size_t j = 0; j < rows; ++j) {
     const std::size_t row = begin + j;
     const double root = std::sqrt(data.weight[row]), cos_i = terms.geometry[row].cos_i;
-    double f = 0, f_by_s = 0;
-    for (std::size_t k = 0; k < count; ++k) {
-      f += linear[k] * columns[k * rows + j];
-      f_by_s += linear[k] * slopes[k * rows + j];
-    }
+    double f = 0;
+    for (std::size_t k = 0; k < count; ++k) f += linear[k] * columns[k * rows + j];
     const bool used = root > 0;
     const double phi = used ? terms.transform.value(f, cos_i) : 0;
     if (!std::isfinite(phi)) return false;
@@ -53,38 +53,52 @@ bool residuals(const Terms& terms, std::size_t channel, std::size_t begin, std::
     out[j] = used ? root * (phi - data.target[row]) : 0;
     if (by_linear)
       for (std::size_t k = 0; k < count; ++k) by_linear[j * count + k] = slope * columns[k * rows + j];
-    if (by_s) by_s[j] = slope * f_by_s;
+    if (by_theta)
+      for (std::size_t i = 0; i < nonlinear; ++i) {
+        double f_by_theta = 0;
+        for (std::size_t k = 0; k < count; ++k) f_by_theta += linear[k] * slopes[(i * count + k) * rows + j];
+        by_theta[j * nonlinear + i] = slope * f_by_theta;
+      }
   }
   return true;
 }
 
-Polished polish(const Terms& terms, const std::vector<std::vector<double>>& start, double s, const std::vector<std::vector<double>>& held,
-                bool hold_s, int threads, int most_iterations) {
-  Polished result{start, s, 0, false, {}};
+Polished polish(const Terms& terms, const SearchSpace& space, const std::vector<LinearLimits>& limits,
+                const std::vector<std::vector<double>>& start, const std::vector<double>& theta, int threads, int most_iterations) {
+  Polished result{start, theta, 0, false, {}};
   ceres::Problem problem;
-  double exponent = s;
+  std::vector<double> nonlinear = theta;
+  if (nonlinear.empty()) nonlinear.push_back(0);  // a block must not be empty
   std::vector<std::vector<double>> linear = start;
+  const auto keep = [&](std::vector<double>& block, const std::vector<int>& constant) {
+    if (constant.size() == block.size())
+      problem.SetParameterBlockConstant(block.data());
+    else if (!constant.empty())
+      problem.SetManifold(block.data(), new ceres::SubsetManifold(static_cast<int>(block.size()), constant));
+  };
   for (std::size_t c = 0; c < terms.channel.size(); ++c) {
     for (std::size_t begin = 0; begin < terms.rows(); begin += rows_at_once)
       problem.AddResidualBlock(new Rows(terms, c, begin, std::min(begin + rows_at_once, terms.rows())), nullptr, linear[c].data(),
-                               &exponent);
+                               nonlinear.data());
     std::vector<int> constant;
     for (std::size_t k = 0; k < terms.kernel.linear; ++k) {
-      problem.SetParameterLowerBound(linear[c].data(), static_cast<int>(k), 0);
-      if (!std::isnan(held[c][k])) constant.push_back(static_cast<int>(k));
+      const int at = static_cast<int>(k);
+      problem.SetParameterLowerBound(linear[c].data(), at, limits[c].lower.empty() ? 0 : limits[c].lower[k]);
+      if (!limits[c].upper.empty() && std::isfinite(limits[c].upper[k]))
+        problem.SetParameterUpperBound(linear[c].data(), at, limits[c].upper[k]);
+      if (!std::isnan(limits[c].held[k])) constant.push_back(at);
     }
-    if (constant.size() == terms.kernel.linear)
-      problem.SetParameterBlockConstant(linear[c].data());
-    else if (!constant.empty())
-      problem.SetManifold(linear[c].data(), new ceres::SubsetManifold(static_cast<int>(terms.kernel.linear), constant));
+    keep(linear[c], constant);
   }
-  if (hold_s || terms.kernel.nonlinear == 0) {
-    problem.SetParameterBlockConstant(&exponent);
-  } else {
-    const Parameter& bounds = terms.kernel.info->parameters[terms.kernel.linear];
-    problem.SetParameterLowerBound(&exponent, 0, bounds.lower);
-    problem.SetParameterUpperBound(&exponent, 0, bounds.upper);
+  std::vector<int> constant;
+  for (std::size_t j = 0; j < nonlinear.size(); ++j) constant.push_back(static_cast<int>(j));
+  for (const SearchAxis& axis : space.axes()) {
+    const int at = static_cast<int>(axis.parameter);
+    std::erase(constant, at);
+    problem.SetParameterLowerBound(nonlinear.data(), at, axis.value(axis.low));
+    problem.SetParameterUpperBound(nonlinear.data(), at, axis.value(axis.high));
   }
+  keep(nonlinear, constant);
   ceres::Solver::Options options;
   // QR squares no condition number; a large table would need a gigabyte for it.
   options.linear_solver_type = terms.rows() * terms.channel.size() <= rows_for_qr ? ceres::DENSE_QR : ceres::DENSE_NORMAL_CHOLESKY;
@@ -106,7 +120,7 @@ Polished polish(const Terms& terms, const std::vector<std::vector<double>>& star
     return result;
   }
   result.linear = linear;
-  result.s = exponent;
+  result.theta.assign(nonlinear.begin(), nonlinear.begin() + static_cast<std::ptrdiff_t>(theta.size()));
   return result;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The cost as a function of the exponent alone, the linear parameters eliminated.
+// The cost as a function of the nonlinear parameters alone, the linear ones eliminated.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "fitting/linear_part.hpp"
@@ -9,8 +10,14 @@
 
 namespace gonio::fitting {
 
-/// One channel at one exponent: its least cost, and the least-squares system of its linear parameters there (exact for the linear
-/// metrics, linearised at the solution for the others). cost = |R x - rhs|² + rest.
+/// What the linear parameters of one channel may be.
+struct LinearLimits {
+  std::vector<double> held;          ///< NaN where free
+  std::vector<double> lower, upper;  ///< empty: 0 and no bound
+};
+
+/// One channel at one set of nonlinear parameters: its least cost, and the least-squares system of its linear parameters there (exact for
+/// the linear metrics, linearised at the solution for the others). cost = |R x - rhs|² + rest.
 struct ChannelPart {
   std::vector<double> x;
   SmallSystem system;
@@ -19,37 +26,36 @@ struct ChannelPart {
 };
 
 struct ProfilePoint {
-  double s = 0;
+  std::vector<double> theta;  ///< every nonlinear parameter
   std::vector<ChannelPart> channel;
   double cost = 0;  ///< of all channels, the constants of collapsed blocks included
+
+  std::vector<std::vector<double>> linear() const;  ///< [channel][k]
 };
 
-struct Minimum {
-  double log_s = 0;
-  ProfilePoint point;
-};
-
-/// Variable projection (Golub and Pereyra 1973, numerics D.1): for a given exponent the linear parameters are found by non-negative
-/// least squares; for log, log1p and cbrt by Gauss-Newton steps of that kind, shortened until the cost falls.
+/// Variable projection (Golub and Pereyra 1973, numerics D.1): for given nonlinear parameters the linear ones are found by bounded least
+/// squares; for log, log1p and cbrt by Gauss-Newton steps of that kind, shortened until the cost falls.
 class Profile {
  public:
-  /// `held[c][k]`: the value of a linear parameter that is not fitted, NaN where it is.
-  Profile(const Terms& terms, std::vector<std::vector<double>> held) : terms_(terms), held_(std::move(held)) {}
+  /// One set of limits per channel. The terms must outlive the profile.
+  Profile(const Terms& terms, std::vector<LinearLimits> limits) : terms_(&terms), limits_(std::move(limits)) {}
 
-  ProfilePoint at(double s) const;
-  /// The profile on 61 equal steps of log s over [1e-3, 1e9] (cut to the parameter's bounds).
-  std::vector<ProfilePoint> scan(int threads) const;
-  /// Every local minimum of a scan, refined by Brent's method (R. P. Brent, Algorithms for Minimization without Derivatives, 1973) to
-  /// 1e-9 in log s; the lowest first. Ripples at the level of rounding are no minima; of a flat stretch the lower end counts.
-  std::vector<Minimum> minima(const std::vector<ProfilePoint>& scan) const;
+  const Terms& terms() const noexcept { return *terms_; }
+  const std::vector<LinearLimits>& limits() const noexcept { return limits_; }
+  /// The same terms with one linear parameter held.
+  Profile holding(std::size_t channel, std::size_t k, double value) const;
+
+  /// The one place where linear parameters are eliminated. The result does not depend on the number of threads.
+  ProfilePoint at(std::span<const double> theta, int threads = 1) const;
 
  private:
-  ChannelPart channel_at(std::size_t channel, const std::vector<double>& columns) const;
-  ChannelPart linearised(std::size_t channel, const std::vector<double>& columns, const std::vector<double>* about) const;
+  ChannelPart channel_part(std::size_t channel, const Triangle& triangle) const;
+  ChannelPart channel_at(std::size_t channel, const std::vector<double>& columns, int threads) const;
+  ChannelPart linearised(std::size_t channel, const std::vector<double>& columns, const std::vector<double>* about, int threads) const;
   double cost_of(std::size_t channel, const std::vector<double>& columns, const std::vector<double>& x) const;
 
-  const Terms& terms_;
-  std::vector<std::vector<double>> held_;
+  const Terms* terms_;
+  std::vector<LinearLimits> limits_;
 };
 
 }  // namespace gonio::fitting

@@ -10,56 +10,62 @@ namespace {
 
 constexpr int reweighting_rounds = 3;  // the weights have settled to 1e-6 by then (numerics C13)
 
-std::vector<std::vector<double>> linear_of(const ProfilePoint& point) {
-  std::vector<std::vector<double>> linear;
-  for (const ChannelPart& part : point.channel) linear.push_back(part.x);
-  return linear;
+/// Every minimum under the asked metric, in the order of the search; where the solver fails the best of them says so in `solution`.
+std::vector<OtherSolution> polished(const Terms& terms, const SearchSpace& space, const Found& found, const SolveOptions& options,
+                                    Solution& solution) {
+  std::vector<OtherSolution> out;
+  for (const Minimum& minimum : found.minima) {
+    OtherSolution next{minimum.point.linear(), minimum.point.theta, minimum.point.cost};
+    if (!terms.transform.linear()) {
+      const Polished polished = polish(terms, space, options.limits, next.linear, next.theta, options.threads);
+      if (polished.converged && polished.cost <= next.cost) next = {polished.linear, polished.theta, polished.cost};
+      if (!polished.converged && out.empty()) {
+        solution.converged = false;
+        solution.reason = "the solver stopped before it converged: " + polished.reason;
+      }
+    }
+    space.order(next.theta, next.linear);
+    out.push_back(std::move(next));
+  }
+  return out;
 }
 
 }  // namespace
 
+Matrix Solution::covariance_of(std::size_t channel) const {
+  const std::size_t own = linear[channel].size(), all = own * linear.size();
+  const auto place = [&](std::size_t k) { return k < own ? channel * own + k : all + k - own; };
+  Matrix out(own + theta.size(), own + theta.size());
+  for (std::size_t a = 0; a < out.rows(); ++a)
+    for (std::size_t b = 0; b < out.rows(); ++b) out(a, b) = covariance(place(a), place(b));
+  return out;
+}
+
 Solution solve(Terms& terms, const SolveOptions& options, const std::vector<CorrelatedComponent>& correlated) {
-  const bool scanned = terms.kernel.nonlinear > 0 && std::isnan(options.held_s);
+  const SearchSpace space(terms.kernel, options.nonlinear, options.alike);
   Solution solution;
+  Found found;
   for (int round = 0;; ++round) {
-    const Profile profile(terms, options.held);
-    std::vector<ProfilePoint> scan;
-    std::vector<Minimum> minima;
-    if (scanned) {
-      scan = profile.scan(options.threads);
-      minima = profile.minima(scan);
-    } else {
-      minima.push_back({0, profile.at(terms.kernel.nonlinear > 0 ? options.held_s : 1)});
-    }
-    if (!std::isfinite(minima.front().point.cost)) {
+    const Profile profile(terms, options.limits);
+    found = round == 0 ? search_globally(profile, space, options.threads) : follow(profile, space, found.minima, options.threads);
+    if (found.minima.empty() || !std::isfinite(found.minima.front().point.cost)) {
       solution.reason = "the cost is not finite anywhere on the scan";
       return solution;
     }
-    if (round < reweighting_rounds && reweight(terms, linear_of(minima.front().point), minima.front().point.s)) continue;
+    const ProfilePoint& lowest = found.minima.front().point;
+    if (round < reweighting_rounds && reweight(terms, lowest.linear(), lowest.theta)) continue;
 
-    std::vector<OtherSolution> found;
     solution.converged = true;
-    for (const Minimum& minimum : minima) {
-      OtherSolution other{linear_of(minimum.point), minimum.point.s, minimum.point.cost};
-      if (!terms.transform.linear()) {
-        const Polished polished = polish(terms, other.linear, other.s, options.held, !scanned, options.threads);
-        if (polished.converged && polished.cost <= other.cost) other = {polished.linear, polished.s, polished.cost};
-        if (!polished.converged && found.empty()) {
-          solution.converged = false;
-          solution.reason = "the solver stopped before it converged: " + polished.reason;
-        }
-      }
-      found.push_back(std::move(other));
-    }
+    std::vector<OtherSolution> all = polished(terms, space, found, options, solution);
     std::size_t best = 0;
-    for (std::size_t k = 1; k < found.size(); ++k)
-      if (found[k].cost < found[best].cost) best = k;
-    solution.linear = found[best].linear;
-    solution.s = found[best].s;
-    solution.cost = found[best].cost;
-    for (std::size_t k = 0; k < found.size(); ++k)
-      if (k != best) solution.others.push_back(found[k]);
-    estimate(solution, terms, profile, scan, minima, options, correlated);
+    for (std::size_t k = 1; k < all.size(); ++k)
+      if (all[k].cost < all[best].cost) best = k;
+    solution.linear = all[best].linear;
+    solution.theta = all[best].theta;
+    solution.cost = all[best].cost;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (k != best) solution.others.push_back(std::move(all[k]));
+    estimate(solution, profile, space, found, options, correlated);
     return solution;
   }
 }

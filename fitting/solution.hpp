@@ -2,11 +2,12 @@
 // The global minimum of one set of terms with the intervals of its parameters.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fitting/fit.hpp"
-#include "fitting/profile.hpp"
+#include "fitting/global_search.hpp"
 
 namespace gonio::fitting {
 
@@ -19,27 +20,33 @@ struct Estimate {
 
 struct OtherSolution {
   std::vector<std::vector<double>> linear;
-  double s = 0, cost = 0;
+  std::vector<double> theta;
+  double cost = 0;
 };
 
-/// Channels that share the exponent, fitted together.
+/// Channels that share the nonlinear parameters, fitted together.
 struct Solution {
   bool converged = false;
   std::string reason;
   std::vector<std::vector<double>> linear;  ///< [channel][k]
-  double s = 0;
+  std::vector<double> theta;                ///< every nonlinear parameter
   double cost = 0, dof = 0;
   double budget = 0;  ///< rise of the cost that ends an interval
   std::vector<OtherSolution> others;
   std::vector<std::vector<Estimate>> linear_estimate;  ///< [channel][k]
-  std::optional<Estimate> s_estimate;
-  /// Covariance of (x_0 … x_k, s) per channel, correlated components included; a parameter without a sigma has NaN there.
-  std::vector<Matrix> covariance;
+  std::vector<Estimate> nonlinear_estimate;
+  /// Of all parameters, the linear ones channel by channel, then the nonlinear ones; correlated components included. A parameter without
+  /// a sigma has NaN there.
+  Matrix covariance;
+
+  /// The block of one channel: its linear parameters, then the nonlinear ones.
+  Matrix covariance_of(std::size_t channel) const;
 };
 
 struct SolveOptions {
-  std::vector<std::vector<double>> held;  ///< [channel][k], NaN where free
-  double held_s = 0;                      ///< NaN where free
+  std::vector<LinearLimits> limits;  ///< one per channel
+  std::vector<Wanted> nonlinear;
+  std::vector<bool> alike;  ///< SearchSpace
   double confidence = 0.95;
   int threads = 1;
 };
@@ -47,12 +54,11 @@ struct SolveOptions {
 /// Scan, minima, polish, and three rounds of weights from the fitted values where the data allow them; then the intervals.
 Solution solve(Terms& terms, const SolveOptions& options, const std::vector<CorrelatedComponent>& correlated);
 
-/// Fills the estimates of a solution (numerics D.4, D.5): profile intervals in the cost, a sigma only where both ends exist.
-///   s      the set of exponents with P(s) <= P_min + budget, its hull;
-///   x_k    the largest and smallest x_k over all s and all other x >= 0 within the same budget.
-/// budget = q² where the data carry u (q of the normal distribution), q² · cost/dof of Student's t where not.
+/// Fills the estimates of a solution (numerics D.4, D.5): profile intervals in the cost, a sigma only where both ends exist. The interval
+/// of a parameter is the hull of its values over all sets of parameters with a cost of at most the least cost plus
+///   budget = q² where the data carry u (q of the normal distribution), q² · cost/dof of Student's t where not.
 /// Correlated components widen both ends and sigma in squares by their linearised effect on the parameter.
-void estimate(Solution& solution, const Terms& terms, const Profile& profile, const std::vector<ProfilePoint>& scan,
-              const std::vector<Minimum>& minima, const SolveOptions& options, const std::vector<CorrelatedComponent>& correlated);
+void estimate(Solution& solution, const Profile& profile, const SearchSpace& space, const Found& found, const SolveOptions& options,
+              const std::vector<CorrelatedComponent>& correlated);
 
 }  // namespace gonio::fitting

@@ -164,11 +164,11 @@ Terms only_channel(const Terms& terms, std::size_t channel) {
   return one;
 }
 
-bool reweight(Terms& terms, const std::vector<std::vector<double>>& linear, double s) {
+bool reweight(Terms& terms, const std::vector<std::vector<double>>& linear, const std::vector<double>& theta) {
   if (!terms.weighted || terms.collapsed) return false;
   const std::size_t rows = terms.rows();
   std::vector<double> columns(terms.kernel.linear * rows);
-  terms.kernel.basis(terms.geometry, &s, columns.data(), rows);
+  terms.basis(0, rows, theta.data(), columns.data(), rows);
   bool changed = false;
   for (std::size_t c = 0; c < terms.channel.size(); ++c) {
     ChannelTerms& channel = terms.channel[c];

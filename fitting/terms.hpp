@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "brdf/observations.hpp"
@@ -37,6 +38,17 @@ struct Terms {
   std::vector<Outlier> outliers;  ///< of collapsed rows, left out or weighed down there
 
   std::size_t rows() const noexcept { return geometry.size(); }
+
+  /// columns[k · stride + j] = basis_k of row begin + j at the nonlinear parameters `theta`. Together with the next the only place where
+  /// the model meets the geometry of the rows.
+  void basis(std::size_t begin, std::size_t end, const double* theta, double* columns, std::size_t stride) const {
+    kernel.basis(std::span(geometry).subspan(begin, end - begin), theta, columns, stride);
+  }
+  /// The same, and slopes[(i · linear + k) · stride + j] = d basis_k / d theta_i.
+  void basis_and_slopes(std::size_t begin, std::size_t end, const double* theta, double* columns, double* slopes,
+                        std::size_t stride) const {
+    kernel.basis_and_slopes(std::span(geometry).subspan(begin, end - begin), theta, columns, slopes, stride);
+  }
 };
 
 /// Which samples count and how much:
@@ -57,6 +69,6 @@ Terms only_channel(const Terms& terms, std::size_t channel);
 /// Weights from the fitted values instead of the readings, where the read variance is known: the shot part of the variance grows with
 /// f, var(f̂) = var_read + (u² - var_read) f̂/f. Weights from the readings themselves favour low readings (numerics C13).
 /// Returns false if there is nothing to change.
-bool reweight(Terms& terms, const std::vector<std::vector<double>>& linear, double s);
+bool reweight(Terms& terms, const std::vector<std::vector<double>>& linear, const std::vector<double>& theta);
 
 }  // namespace gonio::fitting

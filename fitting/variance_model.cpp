@@ -84,7 +84,7 @@ Candidate most_likely(const std::vector<Sums>& cells, unsigned mask) {
     const std::size_t n = columns.size();
     const auto rhs = triangle.r().column(n).first(n);
     const std::vector<double> free(n, std::numeric_limits<double>::quiet_NaN());
-    const NonNegative solution = solve_non_negative({triangle.r().top_left(n, n), {rhs.begin(), rhs.end()}, free});
+    const Bounded solution = solve_bounded({triangle.r().top_left(n, n), {rhs.begin(), rhs.end()}, free});
     if (solution.x.size() != n) break;
     std::array<double, 4> part{};
     for (std::size_t k = 0; k < n; ++k) part[columns[k]] = solution.x[k];

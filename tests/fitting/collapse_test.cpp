@@ -93,9 +93,9 @@ TEST_CASE("the collapsed cost is the cost of all samples, for every metric that 
     CHECK(small.n_observations == large.n_observations);
     CHECK(small.n_masked == large.n_masked);
     CHECK(small.n_masked > 400);
-    const std::vector<std::vector<double>> free(3, std::vector<double>(2, std::nan("")));
+    const std::vector<LinearLimits> free(3, LinearLimits{std::vector<double>(2, std::nan("")), {}, {}});
     for (const double s : {1.0, 180.0, 1e4})
-      CHECK(Profile(small, free).at(s).cost == Approx(Profile(large, free).at(s).cost).epsilon(1e-12));
+      CHECK(Profile(small, free).at(std::vector{s}).cost == Approx(Profile(large, free).at(std::vector{s}).cost).epsilon(1e-12));
   }
 }
 

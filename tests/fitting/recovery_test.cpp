@@ -28,9 +28,11 @@ std::vector<GonioAngles> angles_for(double s) {
   return out;
 }
 
-std::vector<double> parameters_of(const ModelInfo& info, double s) {
-  std::vector<double> values{.25, .4, s};
-  values.resize(info.parameters.size());
+/// Table order, the example of every parameter; linear ones apart, so that none can stand for another.
+std::vector<double> parameters_of(const ModelInfo& info) {
+  std::vector<double> values;
+  for (std::size_t k = 0; k < info.parameters.size(); ++k)
+    values.push_back(info.parameters[k].example * (k < info.linear_count ? 1 + 0.1 * static_cast<double>(k) : 1));
   return values;
 }
 
@@ -39,7 +41,7 @@ std::vector<double> parameters_of(const ModelInfo& info, double s) {
 TEST_CASE("every model is recovered from exact samples under every metric") {
   for (const ModelInfo& info : model_infos())
     for (const Metric metric : metrics) {
-      const AnalyticBrdf truth(info.name, single_channel("Y"), {parameters_of(info, 12)});
+      const AnalyticBrdf truth(info.name, single_channel("Y"), {parameters_of(info)});
       FitOptions options;
       options.model = info.name;
       options.metric = metric;
@@ -81,25 +83,36 @@ TEST_CASE("residual derivatives agree with differences for every model and metri
   const auto observations = observe(data);
   for (const ModelInfo& info : model_infos())
     for (const Metric metric : metrics)
-      for (const double s : {1e-3, 0.5, 1.0, 30.0, 1e4}) {
+      // Along the scan axes of the nonlinear parameters, all at the same part of theirs.
+      for (const double part : {0.0, 0.3, 0.5, 0.7}) {
         const Terms terms = make_terms(*observations, model_kernel(info.name), metric, 1);
-        const std::size_t rows = terms.rows(), linear = terms.kernel.linear;
-        std::vector<double> x(linear, 0.3), out(rows), by_x(rows * linear), by_s(rows), low(rows), high(rows);
-        INFO(info.name << ' ' << name(metric) << " s " << s);
-        REQUIRE(residuals(terms, 0, 0, rows, x.data(), s, out.data(), by_x.data(), by_s.data()));
+        const std::size_t rows = terms.rows(), linear = terms.kernel.linear, nonlinear = terms.kernel.nonlinear;
+        std::vector<double> theta;
+        for (std::size_t j = 0; j < nonlinear; ++j) {
+          const Parameter& p = info.parameters[linear + j];
+          theta.push_back(p.axis == Parameter::Axis::logarithmic ? p.scan_low * std::pow(p.scan_high / p.scan_low, part)
+                                                                 : p.scan_low + (p.scan_high - p.scan_low) * (0.05 + part));
+        }
+        std::vector<double> x(linear, 0.3), out(rows), by_x(rows * linear), by_theta(rows * nonlinear), low(rows), high(rows);
+        INFO(info.name << ' ' << name(metric) << " at " << part << " of the axes");
+        REQUIRE(residuals(terms, 0, 0, rows, x.data(), theta.data(), out.data(), by_x.data(), by_theta.data()));
         const double step = 1e-5;
-        for (std::size_t k = 0; k <= linear; ++k) {
-          std::vector<double> below = x, above = x;
-          double s_below = s, s_above = s, width = 2 * step;
+        for (std::size_t k = 0; k < linear + nonlinear; ++k) {
+          std::vector<double> below = x, above = x, theta_below = theta, theta_above = theta;
+          double width = 2 * step;
           if (k < linear)
             below[k] -= step, above[k] += step;
-          else
-            s_below = s * (1 - step), s_above = s * (1 + step), width = s_above - s_below;
-          REQUIRE(residuals(terms, 0, 0, rows, below.data(), s_below, low.data(), nullptr, nullptr));
-          REQUIRE(residuals(terms, 0, 0, rows, above.data(), s_above, high.data(), nullptr, nullptr));
+          else {
+            const double at = theta[k - linear];
+            theta_below[k - linear] = at * (1 - step), theta_above[k - linear] = at * (1 + step);
+            width = theta_above[k - linear] - theta_below[k - linear];
+          }
+          REQUIRE(residuals(terms, 0, 0, rows, below.data(), theta_below.data(), low.data(), nullptr, nullptr));
+          REQUIRE(residuals(terms, 0, 0, rows, above.data(), theta_above.data(), high.data(), nullptr, nullptr));
           for (std::size_t row = 0; row < rows; ++row) {
-            const double derivative = k < linear ? by_x[row * linear + k] : by_s[row];
+            const double derivative = k < linear ? by_x[row * linear + k] : by_theta[row * nonlinear + k - linear];
             const double scale = 1e-10 * (1 + std::abs(out[row])) / width;  // rounding of the difference
+            INFO("parameter " << info.parameters[k].name << ", row " << row);
             CHECK(std::isfinite(derivative));
             CHECK(derivative == Approx((high[row] - low[row]) / width).epsilon(1e-4).margin(1e-7 + scale));
           }
@@ -214,16 +227,18 @@ TEST_CASE("a solver that is stopped early hands back its start and says so") {
   const Terms terms =
       make_terms(*observe(readings(lobe("phong", .25, .4, 12), angles_for(12), {}, 1)), model_kernel("phong"), Metric::log, 1);
   const double free = std::numeric_limits<double>::quiet_NaN();
-  const Polished stopped = polish(terms, {{.5, .1}}, 40, {{free, free}}, false, 1, 1);
+  const std::vector<LinearLimits> limits{{{free, free}, {}, {}}};
+  const SearchSpace space(terms.kernel, {{free, free, free}}, {true});
+  const Polished stopped = polish(terms, space, limits, {{.5, .1}}, {40}, 1, 1);
   CHECK(!stopped.converged);
   CHECK(!stopped.reason.empty());
-  CHECK(stopped.s == 40);
+  CHECK(stopped.theta.front() == 40);
   // ln 0 does not exist: the very first evaluation fails, and that is a result too.
-  const Polished broken = polish(terms, {{0, 0}}, 40, {{free, free}}, false, 1);
+  const Polished broken = polish(terms, space, limits, {{0, 0}}, {40}, 1);
   CHECK(!broken.converged);
-  const Polished fine = polish(terms, {{.5, .1}}, 40, {{free, free}}, false, 1);
+  const Polished fine = polish(terms, space, limits, {{.5, .1}}, {40}, 1);
   CHECK(fine.converged);
-  CHECK(fine.s == Approx(12).epsilon(1e-6));
+  CHECK(fine.theta.front() == Approx(12).epsilon(1e-6));
 }
 
 TEST_CASE("an unknown model is an error of usage") {

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Every local minimum of the profile over the nonlinear parameters, without a start from the caller.
+#pragma once
+
+#include <vector>
+
+#include "fitting/descent.hpp"
+
+namespace gonio::fitting {
+
+struct Found {
+  std::vector<ProfilePoint> scan;  ///< along the axis, if there is one free parameter: the profile of all rows on equal steps
+  std::vector<Minimum> minima;     ///< the lowest first; the point itself if nothing is free
+};
+
+/// One free parameter: the profile on 61 equal steps of its axis; every local minimum refined by Brent's method (R. P. Brent, Algorithms
+/// for Minimization without Derivatives, 1973) to 1e-9. Ripples at the level of rounding are no minima; of a flat stretch the lower end
+/// counts.
+/// Two: a grid, its local minima refined by descent. More: a low-discrepancy sequence (generalised golden ratio), the best points far
+/// from each other refined. These look at a part of many rows (thinned) before they look at all; two minima without a barrier between
+/// them are one; equal terms stand in order.
+Found search_globally(const Profile& profile, const SearchSpace& space, int threads);
+
+/// The minima that known ones have moved to under other weights.
+Found follow(const Profile& profile, const SearchSpace& space, const std::vector<Minimum>& known, int threads);
+
+}  // namespace gonio::fitting
