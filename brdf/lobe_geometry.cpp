@@ -11,6 +11,16 @@ namespace {
 
 Vector3<double> vector(const Direction& w) { return {w.x(), w.y(), w.z()}; }
 
+/// What follows from |h_xy|² and h_z of the unnormalised half vector: tan² theta_h = |h_xy|² / h_z².
+void set_half_vector(LobeGeometry& g, double beta2, double hz) noexcept {
+  const double tan2 = beta2 / (hz * hz);
+  const bool above = hz > 0 && tan2 <= std::numeric_limits<double>::max();
+  g.tan2_h = above ? tan2 : 0;
+  g.log_cos_h = above ? -0.5 * std::log1p(tan2) : LobeGeometry::no_lobe;
+  g.beta_gap = std::sqrt(beta2);
+  g.cos_d = std::min(1.0, 0.5 * std::sqrt(beta2 + hz * hz));
+}
+
 }  // namespace
 
 LobeGeometry lobe_geometry(const GonioAngles& angles) noexcept {
@@ -24,17 +34,14 @@ LobeGeometry lobe_geometry(const GonioAngles& angles) noexcept {
   LobeGeometry g;
   g.cos_i = a.cos();
   g.cos_o = b.cos();
-  // tan² theta_h = |h_xy|² / h_z²
-  g.log_cos_h = hz > 0 ? -0.5 * std::log1p((sin_difference * sin_difference + 4 * off_plane) / (hz * hz)) : LobeGeometry::no_lobe;
+  const double beta2 = sin_difference * sin_difference + 4 * off_plane;
+  set_half_vector(g, beta2, hz);
   const double q = gap.sin() * gap.sin() + off_plane;  // sin²(psi/2)
   g.log_cos_psi = q < 0.5 ? std::log1p(-2 * q) : LobeGeometry::no_lobe;
   // sin²(half the angle between wi and wo), the azimuths compared with 0 instead of 180°
   const double q_retro = gap.sin() * gap.sin() + sines * half_delta.sin() * half_delta.sin();
   g.log_cos_retro = q_retro < 0.5 ? std::log1p(-2 * q_retro) : LobeGeometry::no_lobe;
-  const double beta2 = sin_difference * sin_difference + 4 * off_plane;
-  g.beta_gap = std::sqrt(beta2);
-  g.cos_d = std::min(1.0, 0.5 * std::sqrt(beta2 + hz * hz));
-  if (hz > 0) {
+  if (g.has_half_vector()) {
     g.slope_x = (a.sin() * angles.phi_i.cos() + b.sin() * angles.phi_o.cos()) / hz;
     g.slope_y = (a.sin() * angles.phi_i.sin() + b.sin() * angles.phi_o.sin()) / hz;
   }
@@ -48,7 +55,7 @@ LobeGeometry lobe_geometry(const Direction& wi, const Direction& wo) noexcept {
   LobeGeometry g;
   g.cos_i = wi.z();
   g.cos_o = wo.z();
-  g.log_cos_h = log_cos_half(vector(wi), vector(wo));
+  set_half_vector(g, hx * hx + hy * hy, hz);
   g.log_cos_psi = log_cos_mirror(vector(wi), vector(wo));
   g.product_x = wi.x() * wo.x();
   g.product_y = wi.y() * wo.y();
@@ -58,10 +65,7 @@ LobeGeometry lobe_geometry(const Direction& wi, const Direction& wo) noexcept {
     g.log_cos_retro = half_sin2_retro < 0.25 ? std::log1p(-2 * half_sin2_retro) : std::log(cos_retro);
   else
     g.log_cos_retro = LobeGeometry::no_lobe;
-  const double beta2 = hx * hx + hy * hy;
-  g.beta_gap = std::sqrt(beta2);
-  g.cos_d = std::min(1.0, 0.5 * std::sqrt(beta2 + hz * hz));
-  if (hz > 0) g.slope_x = hx / hz, g.slope_y = hy / hz;
+  if (g.has_half_vector()) g.slope_x = hx / hz, g.slope_y = hy / hz;
   return g;
 }
 

@@ -16,6 +16,7 @@ struct LobeGeometry {
 
   double cos_i = 1, cos_o = 1;          ///< cosines of the zenith angles; <= 0 below the horizon
   double log_cos_h = 0;                 ///< ln cos theta_h, half vector against the normal
+  double tan2_h = 0;                    ///< tan² theta_h to the last digit; 0 where log_cos_h is no_lobe
   double log_cos_psi = 0;               ///< ln cos psi, outgoing direction against the mirror direction of wi
   double log_cos_retro = 0;             ///< ln cos of the angle between wi and wo
   double cos_d = 1;                     ///< cos theta_d: wi, or wo, against the half vector
@@ -24,6 +25,7 @@ struct LobeGeometry {
   double beta_gap = 0;                  ///< |β - β0|: wo against the mirrored wi, both projected on the surface; also |wi + wo| there
 
   bool above_horizon() const noexcept { return cos_i > 0 && cos_o > 0; }
+  bool has_half_vector() const noexcept { return log_cos_h > no_lobe; }  ///< it is above the surface
 };
 
 /// From angles: ln cos theta_h = -1/2 ln(1 + t²) with t = tan theta_h in product form, ln cos psi = ln(1 - 2q) with

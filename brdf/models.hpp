@@ -8,14 +8,16 @@
 #include "brdf/models/blinn_phong.hpp"
 #include "brdf/models/blinn_phong_exact.hpp"
 #include "brdf/models/blinn_phong_ngan.hpp"
+#include "brdf/models/ggx.hpp"
 #include "brdf/models/lambert.hpp"
 #include "brdf/models/phong.hpp"
 #include "brdf/models/phong_1975.hpp"
 
 namespace gonio {
 
-using Models = std::tuple<Lambert,  //
-                          Phong1975, Phong, BlinnPhong, BlinnPhongExact, BlinnPhongNgan>;
+using Models = std::tuple<Lambert,                                                        //
+                          Phong1975, Phong, BlinnPhong, BlinnPhongExact, BlinnPhongNgan,  //
+                          Ggx>;
 
 /// Calls `f(Model{})` for every model of the list, in order.
 template <class F>

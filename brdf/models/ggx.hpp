@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The GGX microfacet surface with height-correlated shadowing and Schlick's Fresnel reflectance.
+#pragma once
+
+#include "brdf/models/ggx_terms.hpp"
+
+namespace gonio {
+
+/// f = ρd/π + D(θh) G/(4 cos θi cos θo) (F0 (1 - w) + F90 w), w = (1 - cos θd)^5. For given alpha it is linear in ρd, F0 and F90.
+/// The lobe with F0 = F90 = 1 reflects at most everything; what several scatterings would add is missing.
+/// Trap: alpha² is the usual "roughness" to the fourth. Where both directions lie in the surface the lobe has no limit and is 0 here.
+struct Ggx {
+  static constexpr std::string_view name = "ggx";
+  static constexpr std::string_view citation =
+      "B. Walter, S. R. Marschner, H. Li, K. E. Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007; E. Heitz, "
+      "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, JCGT 3(2), 2014; C. Schlick, An Inexpensive BRDF Model for "
+      "Physically-Based Rendering, CGF 13(3), 1994";
+  static constexpr auto parameters = table(schlick_parameters, ggx_roughness);
+  static constexpr DependsOn depends_on = DependsOn::all;
+  static constexpr ModelProperties properties{true, true, true};
+
+  /// D G/(4 cos θi cos θo) [1/sr] from numbers alone: also for batches in float.
+  template <class T>
+  static T lobe(Plain<T> tan2_h, Plain<T> cos_i, Plain<T> cos_o, const T& alpha) {
+    return ggx_distribution(tan2_h, alpha) * ggx_visibility(cos_i, cos_o, alpha);
+  }
+  template <class T>
+  static void basis(const LobeGeometry& g, const T* nonlinear, T* out) {
+    using Real = Plain<T>;
+    const T value = g.has_half_vector()
+                        ? lobe(static_cast<Real>(g.tan2_h), static_cast<Real>(g.cos_i), static_cast<Real>(g.cos_o), nonlinear[0])
+                        : T(Real(0));
+    schlick_basis(g, value, out);
+  }
+};
+
+}  // namespace gonio
