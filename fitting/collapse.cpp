@@ -5,9 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
-#include <limits>
 #include <span>
+#include <utility>
+
+#include "fitting/plane_sums.hpp"
 
 namespace gonio::fitting {
 namespace {
@@ -29,63 +30,6 @@ class CentredSum {
   std::size_t count_ = 0;
 };
 
-constexpr std::size_t lanes = 8;
-
-/// Two passes in `lanes` independent sums: the mean, then squares about the mean. `f` is 0 where `valid` is.
-BlockSums plain_sums(const double* f, const double* valid, std::size_t size, double scale) {
-  std::array<double, lanes> count{}, sum{}, square{}, rest{};
-  const std::size_t whole = size / lanes * lanes;
-  for (std::size_t k = 0; k < whole; k += lanes)
-    for (std::size_t l = 0; l < lanes; ++l) {
-      count[l] += valid[k + l];
-      sum[l] += f[k + l];
-    }
-  for (std::size_t k = whole; k < size; ++k) {
-    count[0] += valid[k];
-    sum[0] += f[k];
-  }
-  double n = 0, total = 0;
-  for (std::size_t l = 0; l < lanes; ++l) n += count[l], total += sum[l];
-  if (!(n > 0)) return {};
-  const double mean = total / n;
-  const auto from_mean = [&](std::size_t k) { return (f[k] - mean) * valid[k]; };
-  for (std::size_t k = 0; k < whole; k += lanes)
-    for (std::size_t l = 0; l < lanes; ++l) {
-      const double d = from_mean(k + l);
-      square[l] += d * d;
-      rest[l] += d;
-    }
-  for (std::size_t k = whole; k < size; ++k) {
-    const double d = from_mean(k);
-    square[0] += d * d;
-    rest[0] += d;
-  }
-  double squares = 0, left = 0;
-  for (std::size_t l = 0; l < lanes; ++l) squares += square[l], left += rest[l];
-  return {n, scale * (mean + left / n), scale * scale * (squares - left * left / n), 0, static_cast<std::size_t>(n)};
-}
-
-/// Least and largest value used in a channel, in units of the element, each in independent lanes.
-struct ValueRange {
-  std::array<double, lanes> least, most;
-
-  ValueRange() {
-    least.fill(std::numeric_limits<double>::infinity());
-    most.fill(-std::numeric_limits<double>::infinity());
-  }
-  void add(const double* f, const double* valid, std::size_t size) noexcept {
-    for (std::size_t k = 0; k < size; k += lanes)
-      for (std::size_t l = 0; l < std::min(lanes, size - k); ++l) {
-        const double low = valid[k + l] > 0 ? f[k + l] : least[l], high = valid[k + l] > 0 ? f[k + l] : most[l];
-        least[l] = low < least[l] ? low : least[l];
-        most[l] = high > most[l] ? high : most[l];
-      }
-  }
-  bool within(CleanRange range) const noexcept {
-    return *std::min_element(least.begin(), least.end()) >= range.low && *std::max_element(most.begin(), most.end()) <= range.high;
-  }
-};
-
 bool plain(const ObservationBlock& block) {
   if (block.validity == ObservationBlock::Validity::mask) return false;
   for (const Column& column : block.f)
@@ -93,54 +37,30 @@ bool plain(const ObservationBlock& block) {
   return true;
 }
 
-/// Two sums about their own means as one (Chan, Golub and LeVeque 1979).
-void merge(BlockSums& all, const BlockSums& part) {
-  if (part.count == 0) return;
-  const double weight = all.weight + part.weight, apart = part.mean - all.mean;
-  all.within += part.within + apart * apart * all.weight * part.weight / weight;
-  all.mean += apart * part.weight / weight;
-  all.weight = weight;
-  all.count += part.count;
-}
+/// A plain block and, in units of the stored numbers, what its planes held.
+struct PlainBlock {
+  CollapsedBlock collapsed;
+  std::vector<PlaneSums> planes;
 
-/// A stretch of the block at a time, which stays in the first-level cache; copied there, because a mapped file need not be aligned.
-/// `range`: one per channel, filled, or empty if nobody asks.
-CollapsedBlock collapse_plain(const ObservationBlock& block, std::vector<ValueRange>& range) {
-  constexpr std::size_t stretch = 512;
-  const std::size_t channels = block.f.size();
-  const bool drop_negative = block.validity == ObservationBlock::Validity::no_channel_negative;
-  std::vector<std::array<double, stretch>> columns(channels);
-  std::array<double, stretch> sample_valid, valid, most, least;
-  CollapsedBlock out;
-  out.channel.resize(channels);
-  for (std::size_t begin = 0; begin < block.size; begin += stretch) {
-    const std::size_t size = std::min(stretch, block.size - begin);
-    sample_valid.fill(1);
-    most.fill(0);
-    least.fill(1);
-    for (std::size_t c = 0; c < channels; ++c) {
-      std::array<double, stretch>& f = columns[c];
-      std::memcpy(f.data(), static_cast<const std::byte*>(block.f[c].data) + begin * sizeof(double), size * sizeof(double));
-      if (drop_negative)
-        for (std::size_t k = 0; k < size; ++k) sample_valid[k] = f[k] < 0 ? 0.0 : sample_valid[k];
-    }
-    for (std::size_t c = 0; c < channels; ++c) {
-      std::array<double, stretch>& f = columns[c];
-      // The comparison is false for NaN and for infinity, which are no measurements either.
-      for (std::size_t k = 0; k < size; ++k) valid[k] = std::abs(f[k]) <= std::numeric_limits<double>::max() ? sample_valid[k] : 0.0;
-      for (std::size_t k = 0; k < size; ++k) f[k] = valid[k] > 0 ? f[k] : 0.0;
-      for (std::size_t k = 0; k < size; ++k) {
-        most[k] = valid[k] > most[k] ? valid[k] : most[k];
-        least[k] = valid[k] < least[k] ? valid[k] : least[k];
-      }
-      if (!range.empty()) range[c].add(f.data(), valid.data(), size);
-      merge(out.channel[c], plain_sums(f.data(), valid.data(), size, block.f[c].scale));
-    }
-    double used = 0, whole = 0;
-    for (std::size_t k = 0; k < size; ++k) used += most[k], whole += least[k];
-    out.used += static_cast<std::size_t>(used);
-    out.masked += size - static_cast<std::size_t>(whole);
+  bool within(std::size_t channel, CleanRange range) const {
+    return planes[channel].least >= range.low && planes[channel].most <= range.high;
   }
+};
+
+PlainBlock collapse_plain(const ObservationBlock& block) {
+  std::vector<const std::byte*> planes;
+  for (const Column& column : block.f) planes.push_back(static_cast<const std::byte*>(column.data));
+  SummedPlanes sums = sum_planes(planes, block.size, block.validity == ObservationBlock::Validity::no_channel_negative);
+  PlainBlock out;
+  for (std::size_t c = 0; c < planes.size(); ++c) {
+    const PlaneSums& plane = sums.plane[c];
+    const double scale = block.f[c].scale;
+    out.collapsed.channel.push_back(
+        {plane.count, scale * plane.mean, scale * scale * plane.within, 0, static_cast<std::size_t>(plane.count)});
+  }
+  out.collapsed.used = sums.used;
+  out.collapsed.masked = sums.masked;
+  out.planes = std::move(sums.plane);
   return out;
 }
 
@@ -227,14 +147,13 @@ CollapsedBlock collapse(const Observations& observations, std::size_t index, Tra
   const std::size_t channels = block.f.size();
   const bool look = robust != Robust::none && !weighted;
   if (transform.metric == Metric::linear && !weighted && plain(block)) {
-    std::vector<ValueRange> range(look ? channels : 0);
-    CollapsedBlock out = collapse_plain(block, range);
-    for (std::size_t c = 0; c < range.size(); ++c) {
+    PlainBlock out = collapse_plain(block);
+    for (std::size_t c = 0; look && c < channels; ++c) {
       CleanRange clean = clean_range_of(block, c);
       clean.low /= block.f[c].scale, clean.high /= block.f[c].scale;
-      if (robust != Robust::automatic || !range[c].within(clean)) replace_sums(block, c, transform, robust, out);
+      if (robust != Robust::automatic || !out.within(c, clean)) replace_sums(block, c, transform, robust, out.collapsed);
     }
-    return out;
+    return std::move(out.collapsed);
   }
   CollapsedBlock out = collapse_any(observations, index, block, transform, weighted);
   for (std::size_t c = 0; look && c < channels; ++c) replace_sums(block, c, transform, robust, out);

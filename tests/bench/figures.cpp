@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How long a fit takes as a whole process: bench_figures GONIO [RUNS] writes its files into a temporary folder, fits each of them with
+// --json (so that hashing counts), and prints medians with the memory, beside a plain sum over the same mapping.
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "data-schemas/document.hpp"
+#include "tabulated/mapped_file.hpp"
+#include "tests/bench/synthetic_files.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace gonio;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+struct Run {
+  double wall_s = 0, memory_mb = 0;
+  Json document;
+};
+
+/// One process from its start to its end, standard output to a file.
+Run run(const std::vector<std::string>& command, const std::filesystem::path& out) {
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+  const auto start = Clock::now();
+  pid_t child = 0;
+  if (posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ) != 0) {
+    std::fprintf(stderr, "cannot start %s\n", arguments[0]);
+    std::exit(2);
+  }
+  posix_spawn_file_actions_destroy(&actions);
+  int status = 0;
+  rusage used{};
+  wait4(child, &status, 0, &used);
+  Run out_run;
+  out_run.wall_s = seconds_since(start);
+  out_run.memory_mb = static_cast<double>(used.ru_maxrss) / 1024;
+  out_run.document = parse_json(gonio::read_file(out), out.string());
+  return out_run;
+}
+
+/// The sum of every double of a mapping on two threads: what any pass over the table costs at least.
+double plain_sum_s(const std::filesystem::path& path, int runs) {
+  const tabulated::MappedFile file(path);
+  const std::byte* const first = file.bytes().data() + 12;
+  const std::size_t count = (file.bytes().size() - 12) / sizeof(double);
+  std::vector<double> seconds;
+  volatile double sink = 0;
+  for (int k = 0; k < runs; ++k) {
+    const auto start = Clock::now();
+    double sums[2] = {};
+    const auto sum = [&](std::size_t part) {
+      double lanes[8] = {};
+      double values[512];
+      const std::size_t begin = part * (count / 2) / 512 * 512, end = part == 0 ? count / 2 / 512 * 512 : count / 512 * 512;
+      for (std::size_t j = begin; j < end; j += 512) {
+        std::memcpy(values, first + j * sizeof(double), sizeof values);
+        for (std::size_t i = 0; i < 512; ++i) lanes[i % 8] += values[i];
+      }
+      for (const double lane : lanes) sums[part] += lane;
+    };
+    {
+      const std::jthread other([&] { sum(1); });
+      sum(0);
+    }
+    sink = sink + sums[0] + sums[1];
+    seconds.push_back(seconds_since(start));
+  }
+  return median(seconds);
+}
+
+void report(const std::string& gonio, const std::filesystem::path& file, int runs) {
+  std::vector<double> wall, memory;
+  Json last;
+  std::filesystem::path out = file;
+  out += ".out";
+  for (int k = -1; k < runs; ++k) {
+    Run one = run({gonio, "fit", file.string(), "--model", "blinn-phong-ngan", "--json"}, out);
+    last = std::move(one.document);
+    if (k >= 0) wall.push_back(one.wall_s), memory.push_back(one.memory_mb);  // the first fills the page cache
+  }
+  std::string fitted, times;
+  for (const Json& parameter : last.at("parameters").elements())
+    fitted += fmt::format(" {}={:.5g}", parameter.at("name").string(), parameter.at("value").number());
+  for (const auto& [name, value] : last.at("timings_s").members()) times += fmt::format(" {} {:.1f}", name, 1e3 * value.number());
+  fmt::print("{:<16} wall {:.1f} ms ({:.1f} to {:.1f}), {:.0f} MB; ms inside:{};{}\n", file.filename().string(), 1e3 * median(wall),
+             1e3 * *std::min_element(wall.begin(), wall.end()), 1e3 * *std::max_element(wall.begin(), wall.end()), median(memory), times,
+             fitted);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: bench_figures PATH_OF_GONIO [RUNS]\n");
+    return 2;
+  }
+  const int runs = argc > 2 ? std::max(1, std::atoi(argv[2])) : 11;
+  const test::TemporaryFolder folder;
+  for (const double s : {50.0, 2000.0, 20000.0}) {
+    bench::SyntheticMaterial material;
+    material.s = s;
+    const auto merl = folder / fmt::format("s{}.binary", s), csv = folder / fmt::format("s{}.csv", s);
+    bench::write_merl_file(merl, material);
+    bench::write_csv_file(csv, material);
+    report(argv[1], merl, runs);
+    fmt::print("{:<16} plain sum of the mapping, 2 threads: {:.1f} ms\n", "", 1e3 * plain_sum_s(merl, runs));
+    report(argv[1], csv, runs);
+    std::filesystem::remove(merl);
+  }
+  return 0;
+}
