@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fitting/checks/check.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 namespace gonio::fitting {
 
 const char* name(Verdict verdict) noexcept {
@@ -12,6 +16,11 @@ const char* name(Verdict verdict) noexcept {
     case Verdict::skipped: return "skipped";
   }
   return "skipped";
+}
+
+std::string percent_text(double relative) {
+  if (!std::isfinite(relative)) return "unknown";
+  return std::abs(relative) < 0.995 ? fmt::format("{:.2g} %", 100 * relative) : fmt::format("{:.0f} %", 100 * relative);
 }
 
 Verdict judge(bool significant, double effect, double effect_upper, double margin) noexcept {

@@ -60,6 +60,9 @@ struct Check {
   std::vector<IncidenceAlbedo> incidences;
 };
 
+/// A relative number for a sentence: `0.95 %`, `110 %`; `unknown` for NaN.
+std::string percent_text(double relative);
+
 /// The rule of every test: significant and beyond the margin fails, significant alone warns; not significant passes only if the upper
 /// confidence limit of the effect lies within the margin too (equivalence), else the data cannot tell.
 Verdict judge(bool significant, double effect, double effect_upper, double margin) noexcept;

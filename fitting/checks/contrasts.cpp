@@ -220,7 +220,7 @@ double understated_noise(const Contrasts& set, const ContrastTest& test, double 
   const double q = normal_upper_quantile(alpha / 2);
   if (fourth / n - 3 > q * std::sqrt(24 / n)) return 1;
   // Even: the bright and the dark half have the same χ²/n.
-  std::sort(by_mean.begin(), by_mean.end());
+  std::stable_sort(by_mean.begin(), by_mean.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   double dark = 0, bright = 0;
   for (std::size_t k = 0; k < by_mean.size(); ++k) (k < by_mean.size() / 2 ? dark : bright) += by_mean[k].second;
   return std::abs(bright - dark) / n > q * std::sqrt(2 / test.effective_dof) ? 1 : birge;

@@ -7,6 +7,13 @@
 #include "fitting/fit.hpp"
 
 namespace gonio::fitting {
+namespace {
+
+constexpr double flat_enough = 1.1;  // χ² of the diffuse part over that of the best lobe
+
+double misfit(const FitResult& result) { return result.errors.chi2_per_dof.value_or(result.errors.linear * result.errors.linear); }
+
+}  // namespace
 
 std::shared_ptr<const AnalyticBrdf> fitted_model(const std::shared_ptr<const Dataset>& dataset) {
   if (dataset->size() == 0) return nullptr;
@@ -17,19 +24,14 @@ std::shared_ptr<const AnalyticBrdf> fitted_model(const std::shared_ptr<const Dat
              return p.kind == IntervalKind::unidentified || p.kind == IntervalKind::lower_bound;
            });
   };
+  FitOptions options;
+  const FitResult lobe = fit(*observations, options);
+  if (determined(lobe)) return std::make_shared<AnalyticBrdf>(lobe.model, lobe.channels, lobe.values);
   // Where the data show no lobe its parameters are undetermined, and the diffuse part alone is the model.
-  for (const char* model : {"blinn-phong", "lambert"}) {
-    FitOptions options;
-    options.model = model;
-    const FitResult result = fit(*observations, options);
-    if (determined(result)) return std::make_shared<AnalyticBrdf>(result.model, result.channels, result.values);
-    if (result.status != Status::converged) return nullptr;
-    const bool lobe_seen = std::any_of(result.parameters.begin(), result.parameters.end(), [](const FittedParameter& p) {
-      return p.name == "rho_s" && (p.kind == IntervalKind::interval || p.kind == IntervalKind::lower_bound);
-    });
-    if (lobe_seen) return nullptr;
-  }
-  return nullptr;
+  options.model = "lambert";
+  const FitResult diffuse = fit(*observations, options);
+  if (!determined(diffuse) || misfit(diffuse) > flat_enough * misfit(lobe)) return nullptr;
+  return std::make_shared<AnalyticBrdf>(diffuse.model, diffuse.channels, diffuse.values);
 }
 
 }  // namespace gonio::fitting

@@ -15,6 +15,7 @@ struct PlacedSamples {
 
 void add_pairs_of(const Dataset& dataset, const PlaceSymmetry& symmetry, const Patterns& patterns, std::size_t first,
                   std::size_t components, std::size_t& next_place, Contrasts& out) {
+  const std::vector<double> time = parts_of_time(dataset);
   Places index;
   std::vector<PlacedSamples> places;
   for (std::size_t k = 0; k < dataset.size(); ++k) {
@@ -25,7 +26,9 @@ void add_pairs_of(const Dataset& dataset, const PlaceSymmetry& symmetry, const P
   for (std::size_t a = 0; a < places.size(); ++a) {
     const auto b = index.find(symmetry.key(symmetry.image(places[a].angles)));
     if (!b || *b <= a) continue;
-    const auto here = patterns(dataset, places[a].samples.front()), there = patterns(dataset, places[*b].samples.front());
+    const std::size_t one_sample = places[a].samples.front(), other_sample = places[*b].samples.front();
+    const auto here = patterns(dataset.angles[one_sample], time[one_sample]);
+    const auto there = patterns(dataset.angles[other_sample], time[other_sample]);
     for (std::size_t c = 0; c < dataset.channels.size(); ++c) {
       auto one = reading_of(dataset, c, places[a].samples, first, components);
       auto other = reading_of(dataset, c, places[*b].samples, first, components);
@@ -78,19 +81,21 @@ Contrasts mirror_pairs(const std::vector<std::shared_ptr<const Dataset>>& datase
   pairs.pattern_share = {0.5, 0.1};
   add_pairs(
       datasets, {key_of, mirrored},
-      [](const Dataset& dataset, std::size_t sample) {
-        const GonioAngles& angles = dataset.angles[sample];
-        return std::vector<double>{angles.theta_o.sin() * (angles.phi_o - angles.phi_i).sin(), part_of_time(dataset, sample)};
+      [](const GonioAngles& angles, double time) {
+        return std::vector<double>{angles.theta_o.sin() * (angles.phi_o - angles.phi_i).sin(), time};
       },
       pairs);
   return pairs;
 }
 
-double part_of_time(const Dataset& dataset, std::size_t sample) {
+std::vector<double> parts_of_time(const Dataset& dataset) {
+  std::vector<double> parts(dataset.size(), 0.0);
   const auto time = dataset.extra.find("time_s");
-  if (time == dataset.extra.end()) return 0;
+  if (time == dataset.extra.end() || time->second.empty()) return parts;
   const auto [begin, end] = std::minmax_element(time->second.begin(), time->second.end());
-  return *end > *begin ? (time->second[sample] - *begin) / (*end - *begin) : 0;
+  if (*end > *begin)
+    for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = (time->second[k] - *begin) / (*end - *begin);
+  return parts;
 }
 
 }  // namespace gonio::fitting

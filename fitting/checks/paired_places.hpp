@@ -19,8 +19,11 @@ struct PlaceSymmetry {
   std::function<GonioAngles(const GonioAngles&)> image;
 };
 
-/// Relative patterns of a sample; the contrast of a pair takes their difference times the mean of the pair.
-using Patterns = std::function<std::vector<double>(const Dataset&, std::size_t sample)>;
+/// Relative patterns of a sample by its angles and its part of the whole time; the contrast of a pair takes their difference times the
+/// mean of the pair.
+using Patterns = std::function<std::vector<double>(const GonioAngles&, double part_of_time)>;
+/// When every sample was taken as a part of the whole time, 0 … 1; 0 where the data do not say (column `time_s`).
+std::vector<double> parts_of_time(const Dataset& dataset);
 
 /// Shared components are taken as independent between data sets: each has its own reference. `first[d]` is the place of the first
 /// component of data set d in Reading::shared, `first.back()` their number.
@@ -38,8 +41,5 @@ void add_pairs(const std::vector<std::shared_ptr<const Dataset>>& datasets, cons
 GonioAngles mirrored(const GonioAngles& angles) noexcept;
 /// Mirror pairs with the directed tests "the side of the plane of incidence" and "time".
 Contrasts mirror_pairs(const std::vector<std::shared_ptr<const Dataset>>& datasets);
-
-/// When a sample was taken as a part of the whole time, 0 … 1; 0 where the data do not say (column `time_s`).
-double part_of_time(const Dataset& dataset, std::size_t sample);
 
 }  // namespace gonio::fitting

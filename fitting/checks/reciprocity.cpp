@@ -9,6 +9,7 @@
 
 #include "fitting/checks/checks.hpp"
 #include "fitting/checks/contrasts.hpp"
+#include "fitting/checks/interpolated_pairs.hpp"
 #include "fitting/checks/paired_places.hpp"
 #include "fitting/checks/repeatability.hpp"
 #include "fitting/checks/symmetry_verdict.hpp"
@@ -17,44 +18,49 @@
 namespace gonio::fitting {
 namespace {
 
+const std::vector<std::string> pattern_names{"the difference of the cosines", "the x component", "the y component", "time"};
+// The cosines are what field, spot and cosine errors go with: they get most of the significance (power at 0.1 % asymmetry).
+const std::vector<double> pattern_share{0.7, 0.05, 0.05, 0.1};
+
+std::vector<double> antisymmetric_patterns(const GonioAngles& angles, double time) {
+  const Direction wi = angles.wi(), wo = angles.wo();
+  return {wi.z() - wo.z(), wi.x() - wo.x(), wi.y() - wo.y(), time};
+}
+
 Contrasts partner_pairs(const CheckSubject& subject, bool turned) {
   Contrasts pairs;
-  pairs.pattern_names = {"the difference of the cosines", "the x component", "the y component", "time"};
-  // The cosines are what field, spot and cosine errors go with: they get most of the significance (power at 0.1 % asymmetry).
-  pairs.pattern_share = {0.7, 0.05, 0.05, 0.1};
-  const PlaceSymmetry symmetry{turned ? key_turned : key_of, exchanged};
-  add_pairs(
-      subject.datasets, symmetry,
-      [](const Dataset& dataset, std::size_t sample) {
-        const Direction wi = dataset.angles[sample].wi(), wo = dataset.angles[sample].wo();
-        return std::vector<double>{wi.z() - wo.z(), wi.x() - wo.x(), wi.y() - wo.y(), part_of_time(dataset, sample)};
-      },
-      pairs);
+  pairs.pattern_names = pattern_names;
+  pairs.pattern_share = pattern_share;
+  add_pairs(subject.datasets, {turned ? key_turned : key_of, exchanged}, antisymmetric_patterns, pairs);
   return pairs;
 }
 
-/// The same statistic for pairs that are no partners, a negative control (Capderou and Michel): the median |difference| over the mean.
-double median_departure(const Contrasts& pairs, std::size_t shift) {
-  std::vector<double> departure;
+/// The median |difference| of a sample and its partner's value over their mean, and the same statistic for pairs that are no partners:
+/// a negative control (Capderou and Michel).
+std::string departures(const Contrasts& pairs) {
   const std::size_t n = pairs.contrasts.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    const double one = pairs.readings[pairs.contrasts[k].terms[0].reading].f;
-    const double other = pairs.readings[pairs.contrasts[(k + shift) % n].terms[1].reading].f;
-    if (one + other > 0) departure.push_back(2 * std::abs(one - other) / (one + other));
-  }
-  if (departure.empty()) return 0;
-  const auto middle = departure.begin() + static_cast<std::ptrdiff_t>(departure.size() / 2);
-  std::nth_element(departure.begin(), middle, departure.end());
-  return *middle;
+  const auto median = [&](std::size_t shift) {
+    std::vector<double> departure;
+    for (std::size_t k = 0; k < n; ++k) {
+      const Contrast& other = pairs.contrasts[(k + shift) % n];
+      const double one = pairs.readings[pairs.contrasts[k].terms[0].reading].f;
+      const double partner = 2 * other.mean - pairs.readings[other.terms[0].reading].f;
+      if (one + partner > 0) departure.push_back(2 * std::abs(one - partner) / (one + partner));
+    }
+    return median_of(std::move(departure));
+  };
+  return fmt::format("median |difference| {} (arbitrary pairs {})", percent_text(median(0)), percent_text(median(n / 2)));
 }
 
 /// Without stated uncertainties: mirror pairs differ by the instrument or by the sample, but never by reciprocity; repeats by noise alone.
-std::optional<Repeatability> instrument_scatter(const CheckSubject& subject) {
+std::optional<Repeatability> instrument_scatter(const CheckSubject& subject, double neighbour_scatter, std::size_t neighbours) {
   if (std::any_of(subject.datasets.begin(), subject.datasets.end(), [](const auto& d) { return d->has_uncertainty(); }))
     return std::nullopt;
   auto scatter = repeated_readings(subject.datasets);
   if (scatter) scatter->relative *= std::numbers::sqrt2;  // of a difference
   const MedianEffect mirror = median_effect(mirror_pairs(subject.datasets), 0.5);
+  if (neighbour_scatter > 0 && (!scatter || neighbour_scatter > scatter->relative))
+    scatter = Repeatability{neighbour_scatter, neighbours, "neighbouring samples"};
   if (mirror.n > 0 && (!scatter || mirror.median > scatter->relative)) return Repeatability{mirror.median, mirror.n, "mirror pairs"};
   return scatter;
 }
@@ -77,19 +83,30 @@ Check check_reciprocity(const CheckSubject& subject, const CheckOptions& options
   }
   Contrasts pairs = partner_pairs(subject, false);
   // A stage that never turns has exact partners on one side of the plane of incidence only.
-  Contrasts turned_pairs = partner_pairs(subject, true);
-  const bool turned = 2 * pairs.contrasts.size() < turned_pairs.contrasts.size();
-  if (turned) pairs = std::move(turned_pairs);
+  Contrasts turned = partner_pairs(subject, true);
+  std::string kind;
+  if (2 * pairs.contrasts.size() < turned.contrasts.size()) {
+    pairs = std::move(turned);
+    kind = " (partners at equal azimuth difference: takes the sample for isotropic)";
+  }
+  double neighbour_scatter = 0;
+  if (static_cast<double>(pairs.contrasts.size()) < enough_dof) {
+    InterpolatedPairs interpolated = interpolated_partners(subject.datasets, antisymmetric_patterns, pattern_names, pattern_share);
+    if (interpolated.set.contrasts.size() > pairs.contrasts.size()) {
+      pairs = std::move(interpolated.set);
+      neighbour_scatter = interpolated.neighbour_scatter;
+      kind = fmt::format(" (partners interpolated{}, takes the sample for isotropic: noise {}, interpolation {} of f)",
+                         interpolated.with_model ? " in the ratio to a fitted model" : "", percent_text(interpolated.u_noise),
+                         percent_text(interpolated.u_interpolation));
+    }
+  }
   if (pairs.contrasts.empty()) {
     check.verdict = Verdict::vacuous;
-    check.detail = "no sample has its reciprocal partner: plan the sweep with reciprocity pairs";
+    check.detail = "no sample has its reciprocal partner, measured or among its neighbours: plan the sweep with reciprocity pairs";
     return check;
   }
-  const std::string_view assumption = turned ? " (partners at equal azimuth difference: takes the sample for isotropic)" : "";
-  const std::string tested =
-      fmt::format("{} partner pairs{}, median |difference| {:.2g} % (arbitrary pairs {:.2g} %)", pairs.contrasts.size(), assumption,
-                  100 * median_departure(pairs, 0), 100 * median_departure(pairs, pairs.contrasts.size() / 2));
-  judge_symmetry(check, pairs, instrument_scatter(subject), subject, options,
+  const std::string tested = fmt::format("{} partner pairs{}, {}", pairs.contrasts.size(), kind, departures(pairs));
+  judge_symmetry(check, pairs, instrument_scatter(subject, neighbour_scatter, pairs.contrasts.size()), subject, options,
                  {"reciprocity", tested, "difference", "chi²/n", ": look for tilt, spot, field or drift first"});
   return check;
 }

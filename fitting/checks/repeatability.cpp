@@ -18,13 +18,6 @@ constexpr std::size_t enough_repeats = 3;
 constexpr std::size_t blocks = 20;  // each with enough places for a median of its own
 constexpr std::size_t enough_places = 40;
 
-double median_of(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 struct Size {
   double square = 0, count = 0, ratio = 0;
   std::size_t reading = 0;
@@ -50,6 +43,13 @@ std::vector<std::pair<double, Size>> sizes_of(const Contrasts& set) {
 }
 
 }  // namespace
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 std::optional<Repeatability> repeated_readings(const std::vector<std::shared_ptr<const Dataset>>& datasets) {
   std::vector<double> scatter;
@@ -117,18 +117,18 @@ void judge_without_uncertainty(Check& check, const Contrasts& set, const std::op
   check.verdict = effect.upper <= options.margin && effect.rms <= options.margin              ? Verdict::pass
                   : repeatability && beyond2 > options.margin * options.margin && beyond2 > 0 ? Verdict::fail
                                                                                               : Verdict::vacuous;
-  check.detail = fmt::format("{}: median {:.2g} % ± {:.2g} %, rms {:.2g} %, noise included, because the data state no uncertainty", tested,
-                             100 * effect.median, 100 * effect.u, 100 * effect.rms);
+  check.detail = fmt::format("{}: median {} ± {}, rms {}, noise included, because the data state no uncertainty", tested,
+                             percent_text(effect.median), percent_text(effect.u), percent_text(effect.rms));
   if (repeatability)
     check.detail +=
-        fmt::format("; {} differ by {:.2g} % (median of {})", repeatability->source, 100 * repeatability->relative, repeatability->n);
+        fmt::format("; {} differ by {} (median of {})", repeatability->source, percent_text(repeatability->relative), repeatability->n);
   if (check.verdict == Verdict::vacuous) {
     if (effect.n < enough_places)
       check.detail += "; too few places for limits";
     else if (!repeatability)
       check.detail += "; nothing is repeated, so noise cannot be told from a violation";
     else
-      check.detail += fmt::format("; that cannot be told from a violation of {:.2g} %", 100 * options.margin);
+      check.detail += fmt::format("; that cannot be told from a violation of {}", percent_text(options.margin));
   }
   if (check.verdict == Verdict::pass) return;
   auto sizes = sizes_of(set);

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "fitting/checks/checks.hpp"
 #include "fitting/checks/contrasts.hpp"
@@ -16,6 +17,9 @@ struct Repeatability {
   std::size_t n = 0;    ///< places it comes from
   std::string source;   ///< "readings repeated at the same place", ...
 };
+
+/// The median, the upper one of two; 0 of nothing.
+double median_of(std::vector<double> values);
 
 /// Median relative standard deviation of the readings of places that were measured at least three times. None without such places.
 std::optional<Repeatability> repeated_readings(const std::vector<std::shared_ptr<const Dataset>>& datasets);

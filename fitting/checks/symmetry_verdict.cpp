@@ -62,9 +62,9 @@ void judge_symmetry(Check& check, const Contrasts& set, const std::optional<Repe
     return;
   }
   judge_contrasts(check, test, options.margin, options.alpha);
-  check.detail = fmt::format("{}: {} beyond noise {:.2g} % ± {:.2g} %, {} {:.3g}", words.tested, words.effect, 100 * test.effect,
-                             100 * test.u_effect, words.statistic, test.chi2 / test.dof);
-  if (check.verdict == Verdict::vacuous) check.detail += fmt::format("; the data cannot tell within {:.2g} %", 100 * options.margin);
+  check.detail = fmt::format("{}: {} beyond noise {} ± {}, {} {:.3g}", words.tested, words.effect, percent_text(test.effect),
+                             percent_text(test.u_effect), words.statistic, test.chi2 / test.dof);
+  if (check.verdict == Verdict::vacuous) check.detail += fmt::format("; the data cannot tell within {}", percent_text(options.margin));
   const ContrastTest* last = &test;
   const Contrasts* corrected = &set;
   std::optional<Upright> upright;
@@ -72,8 +72,8 @@ void judge_symmetry(Check& check, const Contrasts& set, const std::optional<Repe
   if (upright) {
     const bool explained =
         upright->test.p_value >= options.alpha || (upright->test.effect <= options.margin && upright->test.effect < test.effect / 2);
-    check.detail += explained ? fmt::format("; it is {}, not a violation of {}: without it {:.2g} % ± {:.2g} %, {} {:.3g}",
-                                            tilt_text(upright->tilt), words.what, 100 * upright->test.effect, 100 * upright->test.u_effect,
+    check.detail += explained ? fmt::format("; it is {}, not a violation of {}: without it {} ± {}, {} {:.3g}", tilt_text(upright->tilt),
+                                            words.what, percent_text(upright->test.effect), percent_text(upright->test.u_effect),
                                             words.statistic, upright->test.chi2 / upright->test.dof)
                               : fmt::format("; {} explains a part of it, {} {:.3g} are left", tilt_text(upright->tilt), words.statistic,
                                             upright->test.chi2 / upright->test.dof);

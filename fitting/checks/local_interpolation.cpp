@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/checks/local_interpolation.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <cmath>
+
+#include "fitting/checks/sample_places.hpp"
+
+namespace gonio::fitting {
+namespace {
+
+constexpr std::size_t used = 14;  // a cell of a grid has eight corners; four numbers are estimated
+constexpr std::size_t least_used = 8;
+constexpr double reach_in_spacings = 3;
+// Squared distance of the target from the neighbours' centroid in units of their spread: 3 at the end of an evenly covered interval.
+constexpr double most_outside = 3;
+constexpr double ridge = 1e-9;
+
+std::vector<Point> points_of(const std::vector<GonioAngles>& angles) {
+  std::vector<Point> points;
+  for (const GonioAngles& a : angles) points.push_back(key_turned(a));
+  return points;
+}
+
+}  // namespace
+
+LocalInterpolation::LocalInterpolation(const std::vector<GonioAngles>& angles)
+    : nodes_(points_of(angles)), reach_(reach_in_spacings * nodes_.median_spacing()) {}
+
+std::optional<LocalInterpolation::Weights> LocalInterpolation::at(const GonioAngles& target, std::size_t skip) const {
+  const Point to = key_turned(target);
+  const auto near = nodes_.nearest(to, used + 1, skip);
+  if (near.size() < least_used || near.front().distance > reach_) return std::nullopt;
+  const double width = near.back().distance * (1 + ridge);
+  if (!(width > 0)) return std::nullopt;
+  // Columns: 1, theta_i, and wo along the two tangents at the target's wo; lengths in units of the width.
+  const double st = std::hypot(to[3], to[4]);
+  const double cp = st > 0 ? to[3] / st : 1, sp = st > 0 ? to[4] / st : 0;
+  Eigen::Matrix<double, 4, 4> normal = Eigen::Matrix<double, 4, 4>::Zero();
+  std::vector<Eigen::Vector4d> rows;
+  std::vector<double> kernel;
+  const std::size_t count = near.size() - 1;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Point p = nodes_.point(near[k].node);
+    const double x = p[3] - to[3], y = p[4] - to[4], z = p[5] - to[5];
+    const double along = (x * cp + y * sp) * to[5] - z * st, across = -x * sp + y * cp;
+    rows.emplace_back(1, (std::atan2(p[0], p[2]) - std::atan2(to[0], to[2])) / width, along / width, across / width);
+    const double r = near[k].distance / width, t = 1 - r * r * r;
+    kernel.push_back(t * t * t);
+    normal += kernel.back() * rows.back() * rows.back().transpose();
+  }
+  normal.diagonal().tail<3>().array() += ridge;  // samples of one incidence only: no slope in theta_i
+  const Eigen::Vector4d solved = normal.ldlt().solve(Eigen::Vector4d::Unit(0));
+  // Schur complement: the corner of the inverse times the sum of the kernel is one plus that distance.
+  if (!(solved[0] * normal(0, 0) - 1 <= most_outside)) return std::nullopt;
+  Weights weights;
+  for (std::size_t k = 0; k < count; ++k) weights.emplace_back(near[k].node, kernel[k] * rows[k].dot(solved));
+  return weights;
+}
+
+}  // namespace gonio::fitting
