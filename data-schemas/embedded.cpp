@@ -45,6 +45,7 @@ const char* name(Schema schema) noexcept {
     case Schema::checks: return "checks";
     case Schema::tradeoff: return "tradeoff";
     case Schema::fit_line: return "fit-line";
+    case Schema::choice: return "choice";
   }
   return "";
 }

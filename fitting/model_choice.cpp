@@ -81,7 +81,8 @@ std::string second_lobe(const FitResult& fit) {
     best_text += fmt::format("{}{} = {:.4g}", k ? ", " : "", model.parameters[place].name, fit.values.front()[place]);
     other_text += fmt::format("{}{:.4g}", k ? ", " : "", other[k]);
   }
-  return fmt::format("its profile has two minima, {} and {}: often a second lobe, try {}+{}", best_text, other_text, fit.model, fit.model);
+  return fmt::format("its profile has another minimum, {} beside {}, at {:.3g} times the cost: often a second lobe, try {}+{}", other_text,
+                     best_text, fit.other_minima.front().cost_ratio, fit.model, fit.model);
 }
 
 /// The lobes that only differ by their normalisation fit alike.
@@ -117,7 +118,7 @@ class Choice {
     folds_ = incidence_folds(*observations_, options_.max_folds);
     keep_ = thinned(folds_.of_sample.size());
     samples_ = gather(*observations_, keep_, folds_.of_sample);
-    noise_ = repeatability(samples_);
+    noise_ = noise_level(samples_);
     fit_all();
     cross_validate();
     add_criteria();
@@ -151,8 +152,9 @@ class Choice {
       candidate.free_parameters = static_cast<std::size_t>(std::count_if(candidate.fit.parameters.begin(), candidate.fit.parameters.end(),
                                                                          [](const auto& p) { return p.kind != IntervalKind::fixed; }));
       add_note(candidate.reason, unidentified(candidate.fit));
-      add_note(candidate.reason, same_as(candidate, {candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(m)}));
-      if (candidate.single_lobe) candidate.hint = second_lobe(candidate.fit);
+      const std::string same = same_as(candidate, {candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(m)});
+      add_note(candidate.reason, same);
+      if (candidate.single_lobe && same.empty()) candidate.hint = second_lobe(candidate.fit);
     }
   }
 
@@ -204,7 +206,7 @@ class Choice {
     for (std::size_t m = 0; m < candidates_.size(); ++m) {
       const Candidate& candidate = candidates_[m];
       if (!candidate.ranked) continue;
-      likelihoods[m] = likelihood(samples_, model_info(candidate.model), candidate.fit.values, options_.fit.metric);
+      likelihoods[m] = likelihood(samples_, model_info(candidate.model), candidate.fit.values, options_.fit.metric.value_or(Metric::linear));
       const double dof = static_cast<double>(likelihoods[m].n) - static_cast<double>(candidate.free_parameters);
       if (dof >= 1) inflation = std::min(inflation, likelihoods[m].minus_two_log / dof);
     }
@@ -305,11 +307,11 @@ class Choice {
   std::string verdict(const ModelChoice& out, const Candidate* best_single) const {
     if (!out.best) return "no model could be fitted";
     if (folds_.count < 2) return "there are too few samples to leave any out: adequacy cannot be judged";
-    const std::string noise = noise_.source == Repeatability::Source::unknown
+    const std::string noise = noise_.source == NoiseLevel::Source::unknown
                                   ? " (the data state no uncertainty and hold no repeats: noise counts as misfit)"
                                   : " beyond the noise";
     const auto figure = [&](const Candidate& c) {
-      return fmt::format("{} misses left-out samples by {:.2g} %", c.model, 100 * c.relative_error.value_or(std::nan("")));
+      return fmt::format("{} misses left-out samples by {:.3g} %", c.model, 100 * c.relative_error.value_or(std::nan("")));
     };
     std::string text;
     if (out.single_lobe_adequate) {
@@ -332,7 +334,7 @@ class Choice {
   Folds folds_;
   std::vector<std::uint8_t> keep_;
   Samples samples_;
-  Repeatability noise_;
+  NoiseLevel noise_;
   std::vector<Candidate> candidates_;
   std::vector<std::vector<PredictionSums>> predictions_;  ///< [model][fold]
   std::vector<std::size_t> order_;                        ///< candidates, the best first

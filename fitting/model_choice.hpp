@@ -61,7 +61,7 @@ struct ModelChoice {
   bool any_adequate = false, single_lobe_adequate = false;
   std::string verdict;  ///< one sentence
   Folds folds;          ///< without `of_sample`
-  Repeatability noise;
+  NoiseLevel noise;
   double margin = 0;
   std::size_t n_samples = 0;  ///< samples used for cross-validation; of large tables an even part
   double choice_s = 0;

@@ -41,7 +41,7 @@ bool carries_uncertainty(const Samples& samples) {
   return true;
 }
 
-Repeatability over_norm(Repeatability::Source source, double noise2_cos, double noise2_cbrt, double count, const Samples& samples) {
+NoiseLevel over_norm(NoiseLevel::Source source, double noise2_cos, double noise2_cbrt, double count, const Samples& samples) {
   double norm2_cos = 0, norm2_cbrt = 0, values = 0;
   for (const auto& column : samples.f)
     for (std::size_t k = 0; k < samples.size(); ++k) {
@@ -167,7 +167,7 @@ Likelihood likelihood(const Samples& samples, const ModelInfo& model, const std:
   return out;
 }
 
-Repeatability repeatability(const Samples& samples) {
+NoiseLevel noise_level(const Samples& samples) {
   double noise2_cos = 0, noise2_cbrt = 0, count = 0;
   if (carries_uncertainty(samples)) {
     for (std::size_t c = 0; c < samples.f.size(); ++c)
@@ -178,7 +178,7 @@ Repeatability repeatability(const Samples& samples) {
         noise2_cbrt += std::pow((std::cbrt(f + u) - std::cbrt(f - u)) / 2, 2);
         count += 1;
       }
-    return over_norm(Repeatability::Source::stated, noise2_cos, noise2_cbrt, count, samples);
+    return over_norm(NoiseLevel::Source::stated, noise2_cos, noise2_cbrt, count, samples);
   }
   // Centred squares inside groups of equal directions; a group of n has n - 1 degrees of freedom.
   struct Group {
@@ -205,7 +205,7 @@ Repeatability repeatability(const Samples& samples) {
     }
   }
   if (count < static_cast<double>(least_repeats)) return {};
-  return over_norm(Repeatability::Source::repeats, noise2_cos, noise2_cbrt, count, samples);
+  return over_norm(NoiseLevel::Source::repeats, noise2_cos, noise2_cbrt, count, samples);
 }
 
 }  // namespace gonio::fitting

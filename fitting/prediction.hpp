@@ -53,12 +53,12 @@ struct Likelihood {
 Likelihood likelihood(const Samples& samples, const ModelInfo& model, const std::vector<std::vector<double>>& values, Metric metric);
 
 /// Noise of the samples over their root mean square under linear-cos and cbrt.
-struct Repeatability {
+struct NoiseLevel {
   enum class Source { stated, repeats, unknown };
   Source source = Source::unknown;
   double linear_cos = 0, cbrt = 0;  ///< 0 where unknown
 };
 /// From u where at least half of the values have it, else from repeated directions (at least ten repeats), else unknown.
-Repeatability repeatability(const Samples& samples);
+NoiseLevel noise_level(const Samples& samples);
 
 }  // namespace gonio::fitting

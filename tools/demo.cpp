@@ -14,7 +14,7 @@
 #include "tools/brdf_source.hpp"
 #include "tools/lobe_picture.hpp"
 #include "tools/measure.hpp"
-#include "tools/output.hpp"
+#include "tools/fit_document.hpp"
 #include "tools/reduced_run.hpp"
 #include "tools/verbs.hpp"
 

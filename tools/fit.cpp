@@ -6,8 +6,8 @@
 #include <iostream>
 
 #include "tools/fit_batch.hpp"
+#include "tools/fit_choice.hpp"
 #include "tools/fit_job.hpp"
-#include "tools/output.hpp"
 #include "tools/verbs.hpp"
 
 namespace gonio::tools {
@@ -56,11 +56,13 @@ int fit_verb(const Arguments& arguments, Console& console) {
   std::vector<std::string> names;
   std::string list;
   FitFlags flags;
+  ChoiceFlags choice;
   BatchOptions batch;
   bool together = false, lines = false;
   app.add_option("FILE", names, "Any readable BRDF files, or folders of them");
   app.add_option("--files-from", list, "More files, one a line; - reads standard input");
   flags.add_to(app);
+  choice.add_to(app);
   app.add_flag("--together", together, "One fit of all files");
   app.add_flag("--lines", lines, "JSON lines for a single file too");
   app.add_option("--jobs", batch.jobs, "Files fitted at a time (default: as many as processors)")->check(CLI::PositiveNumber);
@@ -70,7 +72,8 @@ int fit_verb(const Arguments& arguments, Console& console) {
   add_common(app, console);
   if (!parse(app, arguments)) return 0;
 
-  const FitRequest request = flags.request();
+  const std::vector<std::string> models = several_models(flags.fit.model);
+  const FitRequest request = models.empty() ? flags.request() : flags.request(models);
   if (!list.empty()) {
     const std::vector<std::string> more = names_from(list);
     names.insert(names.end(), more.begin(), more.end());
@@ -78,6 +81,11 @@ int fit_verb(const Arguments& arguments, Console& console) {
   const std::vector<std::string> files = expand_folders(names);
   if (files.empty()) throw Error(ErrorKind::usage, {"gonio fit", "no file", "FILE, or a folder with measurements in it"});
   if (batch.resume && batch.out.empty()) throw Error(ErrorKind::usage, {"--resume", "no --out", "the file of JSON lines to go on with"});
+  if (!models.empty()) {
+    if (lines || batch.resume || batch.ordered || (files.size() > 1 && !together))
+      throw Error(ErrorKind::usage, {"--model", "several models for many files", "one file, or --together; or a single model"});
+    return fit_choice(files, models, request, choice, batch.jobs, batch.out, console);
+  }
   const bool one_by_one = !together && (lines || files != names || files.size() > 1 || !list.empty());
   if (one_by_one) return fit_batch(files, request, batch, console);
   if (batch.resume || batch.ordered) throw Error(ErrorKind::usage, {"--resume, --ordered", "a single fit", "several files, or --lines"});

@@ -39,28 +39,35 @@ Json options_document(const fitting::FitOptions& fit, const ReadFlags& read) {
 void FitFlags::add_to(CLI::App& app) {
   std::string models;
   for (const ModelInfo& info : model_infos()) models += (models.empty() ? "" : ", ") + std::string(info.name);
-  app.add_option("--model", fit.model, "One of " + models)->required();
+  app.add_option("--model", fit.model, "One of " + models + ", or a sum of them, a+b; a list separated by commas, or all, to rank them")
+      ->required();
   app.add_option("--metric", metric, metric_list());
   app.add_option("--fix", fixed, "NAME=VALUE: hold a parameter")->take_all();
   app.add_flag("--per-channel", fit.per_channel, "Nonlinear parameters per channel");
   read.add_to(app);
 }
 
-FitRequest FitFlags::request(const std::string& model) const {
+FitRequest FitFlags::request() const {
+  model_info(fit.model);
+  return request({fit.model});
+}
+
+FitRequest FitFlags::request(const std::vector<std::string>& models) const {
   FitRequest out;
   out.fit = fit;
-  out.fit.model = model;
   if (!metric.empty()) {
     out.fit.metric = fitting::metric_named(metric);
     if (!out.fit.metric) throw Error(ErrorKind::usage, {"--metric", "'" + metric + "'", metric_list()});
   }
-  model_info(model);
   for (const std::string& text : fixed) {
     const auto [name, value] = name_value(text, "--fix");
     out.fit.fixed[name] = number_from(value, "--fix " + name);
   }
   out.read = read.options();
   out.options = options_document(out.fit, read);
+  std::string names;
+  for (const std::string& model : models) names += (names.empty() ? "" : ",") + model;
+  out.options.set("model", names);
   return out;
 }
 

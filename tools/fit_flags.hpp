@@ -26,9 +26,10 @@ struct FitFlags {
   ReadFlags read;
 
   void add_to(CLI::App& app);
-  /// Error(usage) for a value that no flag takes. `model` stands in for --model where several models are tried.
-  FitRequest request(const std::string& model) const;
-  FitRequest request() const { return request(fit.model); }
+  /// Error(usage) for a value that no flag takes, or for an unknown model.
+  FitRequest request() const;
+  /// The same where --model names several, which have been looked up.
+  FitRequest request(const std::vector<std::string>& models) const;
 };
 
 }  // namespace gonio::tools

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "data-schemas/sha256.hpp"
+#include "tools/fit_document.hpp"
 #include "tools/fit_flags.hpp"
-#include "tools/output.hpp"
 
 namespace gonio::tools {
 

@@ -9,11 +9,6 @@
 namespace gonio::tools {
 namespace {
 
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
-
 Json place_document(const fitting::Place& place) {
   return Json::object({{"theta_i_deg", place.angles.theta_i.degrees()},
                        {"phi_i_deg", place.angles.phi_i.degrees()},
@@ -68,12 +63,6 @@ Json check_document(const fitting::Check& check) {
   return document;
 }
 
-Json check_array(const std::vector<fitting::Check>& checks) {
-  Json out = Json::array();
-  for (const fitting::Check& check : checks) out.push_back(check_document(check));
-  return out;
-}
-
 std::string place_text(const fitting::Place& place) {
   const GonioAngles& a = place.angles;
   std::string text = fmt::format("({:.6g}°, {:.6g}°) -> ({:.6g}°, {:.6g}°), channel {}", a.theta_i.degrees(), a.phi_i.degrees(),
@@ -82,34 +71,6 @@ std::string place_text(const fitting::Place& place) {
   if (place.z) text += fmt::format(", z {:.1f}", *place.z);
   if (place.p_holm && place.p_bh) text += fmt::format(", p {:.2g} (Holm), {:.2g} (BH)", *place.p_holm, *place.p_bh);
   return text;
-}
-
-std::string channel_name(const fitting::FitResult& result, const fitting::FittedParameter& parameter) {
-  return parameter.channel ? result.channels[*parameter.channel].name : std::string();
-}
-
-/// Decimals that show two significant digits of a width.
-int decimals_for(double width) { return width > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 15) : 15; }
-
-std::string with_uncertainty(double value, double u) {
-  const int digits = decimals_for(u);
-  return fmt::format("{:.{}f} ± {:.{}f}", value, digits, u, digits);
-}
-
-std::string interval_text(const fitting::FittedParameter& p) {
-  using fitting::IntervalKind;
-  switch (p.kind) {
-    case IntervalKind::interval: {
-      const double low = p.low.value_or(NAN), high = p.high.value_or(NAN);
-      const int digits = decimals_for(high - low);
-      return fmt::format("95 % interval [{:.{}f}, {:.{}f}]", low, digits, high, digits);
-    }
-    case IntervalKind::lower_bound: return fmt::format("at least {:.6g} (95 %)", p.low.value_or(NAN));
-    case IntervalKind::upper_bound: return fmt::format("at most {:.6g} (95 %)", p.high.value_or(NAN));
-    case IntervalKind::unidentified: return "the data do not determine it";
-    case IntervalKind::fixed: return "held fixed";
-  }
-  return {};
 }
 
 }  // namespace
@@ -142,83 +103,14 @@ Json masked_document(const MaskedCounts& masked) {
                        {"blocked", count(masked.blocked)}});
 }
 
-Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, const FitTimings& timings, Json context, Json options) {
-  using fitting::IntervalKind;
-  Json parameters = Json::array();
-  for (const auto& p : result.parameters) {
-    Json interval;
-    if (p.kind == IntervalKind::interval || p.kind == IntervalKind::lower_bound || p.kind == IntervalKind::upper_bound) {
-      interval = Json::array();
-      interval.push_back(or_null(p.low));
-      interval.push_back(or_null(p.high));
-    }
-    parameters.push_back(Json::object({{"name", p.name},
-                                       {"channel", p.channel ? Json(result.channels[*p.channel].name) : Json()},
-                                       {"value", p.value},
-                                       {"sigma", or_null(p.sigma)},
-                                       {"interval", interval},
-                                       {"kind", name(p.kind)},
-                                       {"lower", p.lower},
-                                       {"upper", p.upper}}));
-  }
-  Json minima = Json::array();
-  for (const auto& minimum : result.other_minima) {
-    Json nonlinear = Json::array(), linear = Json::array();
-    for (const double value : minimum.nonlinear) nonlinear.push_back(value);
-    for (const auto& set : minimum.linear) {
-      Json values = Json::array();
-      for (const double value : set) values.push_back(value);
-      linear.push_back(values);
-    }
-    minima.push_back(
-        Json::object({{"nonlinear", nonlinear}, {"linear", linear}, {"cost", minimum.cost}, {"cost_ratio", minimum.cost_ratio}}));
-  }
-  const auto& e = result.errors;
-  Json document = Json::object({{"context", std::move(context)}, {"status", name(result.status)}});
-  if (!result.reason.empty()) document.set("reason", result.reason);
-  document.set("model", result.model);
-  document.set("metric", name(result.metric));
-  if (!options.is_null()) document.set("options", std::move(options));
-  document.set("parameters", parameters);
-  document.set("errors", Json::object({{"linear", e.linear},
-                                       {"linear_cos", e.linear_cos},
-                                       {"log", e.log},
-                                       {"log1p", e.log1p},
-                                       {"cbrt", e.cbrt},
-                                       {"chi2_per_dof", or_null(e.chi2_per_dof)}}));
-  document.set("n_observations", static_cast<std::int64_t>(result.n_observations));
-  Json counts = masked_document(masked);
-  const std::size_t in_fit = result.n_masked;
-  counts.set("not_fitted", static_cast<std::int64_t>(in_fit));
-  document.set("n_masked", counts);
-  document.set("other_minima", minima);
-  document.set("timings_s", Json::object({{"read", timings.read_s}, {"fit", timings.fit_s}, {"total", timings.total_s}}));
-  document.set("checks", check_array(result.checks));
-  return document;
+Json checks_array(const std::vector<fitting::Check>& checks) {
+  Json out = Json::array();
+  for (const fitting::Check& check : checks) out.push_back(check_document(check));
+  return out;
 }
 
 Json checks_document(const std::vector<fitting::Check>& checks, Json context) {
-  return Json::object({{"context", std::move(context)}, {"checks", check_array(checks)}});
-}
-
-std::vector<std::string> fit_lines(const fitting::FitResult& result) {
-  std::vector<std::string> lines;
-  lines.push_back(fmt::format("{} by {}: {}{}, {} samples", result.model, name(result.metric), name(result.status),
-                              result.reason.empty() ? "" : " (" + result.reason + ")", result.n_observations));
-  for (const auto& p : result.parameters) {
-    const std::string channel = channel_name(result, p);
-    const std::string value = p.sigma && *p.sigma > 0 ? with_uncertainty(p.value, *p.sigma) : fmt::format("{:.6g}", p.value);
-    lines.push_back(fmt::format("  {:<8} {:<8} {:<26} {}", p.name, channel, value, interval_text(p)));
-  }
-  const auto& e = result.errors;
-  lines.push_back(fmt::format("  rms error: linear {:.4g}, linear-cos {:.4g}, log {:.4g}, log1p {:.4g}, cbrt {:.4g}{}", e.linear,
-                              e.linear_cos, e.log, e.log1p, e.cbrt,
-                              e.chi2_per_dof ? fmt::format("; chi2 per degree of freedom {:.3f}", *e.chi2_per_dof) : ""));
-  for (const auto& minimum : result.other_minima)
-    lines.push_back(fmt::format("  another minimum at {} with {:.4g} times the cost",
-                                minimum.nonlinear.empty() ? 0.0 : minimum.nonlinear.front(), minimum.cost_ratio));
-  for (const auto& line : check_lines(result.checks)) lines.push_back(line);
-  return lines;
+  return Json::object({{"context", std::move(context)}, {"checks", checks_array(checks)}});
 }
 
 std::vector<std::string> check_lines(const std::vector<fitting::Check>& checks) {

@@ -2,12 +2,12 @@
 // Result documents and output formats shared by the verbs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "data-schemas/document.hpp"
 #include "fitting/checks/check.hpp"
-#include "fitting/fit.hpp"
 #include "tabulated/open.hpp"
 
 namespace gonio::tools {
@@ -21,17 +21,18 @@ const tabulated::Format& format_of_name(const std::string& out);
 
 Json masked_document(const MaskedCounts& masked);
 
-/// Seconds spent, as `timings_s` of a fit prints them.
-struct FitTimings {
-  double read_s = 0, fit_s = 0, total_s = 0;
-};
-/// The document of `gonio fit` (data-schemas/fit.schema.json); `options` are the flags that shaped the result, null: none given.
-Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, const FitTimings& timings, Json context, Json options = {});
+/// A value, or null where there is none.
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
+
 /// The document of `gonio check` (data-schemas/checks.schema.json).
 Json checks_document(const std::vector<fitting::Check>& checks, Json context);
+/// Its member `checks`.
+Json checks_array(const std::vector<fitting::Check>& checks);
 
-/// The same for people, one line per parameter, metric and check.
-std::vector<std::string> fit_lines(const fitting::FitResult& result);
+/// The same for people, one line per check and per place that violates.
 std::vector<std::string> check_lines(const std::vector<fitting::Check>& checks);
 
 }  // namespace gonio::tools

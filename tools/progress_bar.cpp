@@ -8,10 +8,15 @@
 namespace gonio::tools {
 
 ProgressBar::ProgressBar(const Console& console, std::string what, std::size_t total)
-    : console_(console), what_(std::move(what)), total_(total), begin_(Clock::now()), shown_(begin_) {}
+    : console_(console), what_(std::move(what)), begin_(Clock::now()), shown_(begin_), total_(total) {}
 
 ProgressBar::~ProgressBar() {
   if (visible_) console_.progress("");
+}
+
+void ProgressBar::expect(std::size_t total) {
+  const std::lock_guard lock(guard_);
+  total_ = total;
 }
 
 void ProgressBar::advance(bool skipped, const std::string& note) {

@@ -19,6 +19,8 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
+  /// There are more or fewer pieces than the constructor was told.
+  void expect(std::size_t total);
   /// A piece is done; one that cost no work (`skipped`) does not shorten the time the others are expected to take.
   void advance(bool skipped = false, const std::string& note = {});
 
@@ -26,11 +28,10 @@ class ProgressBar {
   using Clock = std::chrono::steady_clock;
   const Console& console_;
   const std::string what_;
-  const std::size_t total_;
   const Clock::time_point begin_;
   std::mutex guard_;
   Clock::time_point shown_;
-  std::size_t done_ = 0, worked_ = 0;
+  std::size_t total_, done_ = 0, worked_ = 0;
   bool visible_ = false;
 };
 

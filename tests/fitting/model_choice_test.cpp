@@ -60,7 +60,7 @@ TEST_CASE("the true model is best and adequate, wrong ones are not, and the simp
   CHECK(choice.any_adequate);
   CHECK(choice.single_lobe_adequate);
   CHECK(choice.simplest == "blinn-phong");
-  CHECK(choice.noise.source == Repeatability::Source::stated);
+  CHECK(choice.noise.source == NoiseLevel::Source::stated);
   const Candidate &truth = candidate(choice, "blinn-phong"), &flat = candidate(choice, "lambert"), &mirror = candidate(choice, "phong");
   CHECK(truth.adequate);
   CHECK(*truth.relative_error < 0.02);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A fit as a document and as lines for people.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fitting/fit.hpp"
+#include "tools/output.hpp"
+
+namespace gonio::tools {
+
+/// Seconds spent, as `timings_s` of a fit prints them.
+struct FitTimings {
+  double read_s = 0, fit_s = 0, total_s = 0;
+};
+/// The document of `gonio fit` (data-schemas/fit.schema.json); `options` are the flags that shaped the result, null: none given.
+Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, const FitTimings& timings, Json context, Json options = {});
+/// Its members `parameters` and `errors`.
+Json parameters_document(const fitting::FitResult& result);
+Json errors_document(const fitting::FitErrors& errors);
+
+/// One line per parameter, metric and check.
+std::vector<std::string> fit_lines(const fitting::FitResult& result);
+
+}  // namespace gonio::tools
