@@ -54,6 +54,40 @@ Json minima_document(const std::vector<fitting::OtherMinimum>& others) {
   return minima;
 }
 
+/// Where the weights came from, and the readings found to be wrong.
+Json weighting_document(const fitting::FitResult& result) {
+  const fitting::Weighting& weighting = result.weighting;
+  Json outliers = Json::array(), variance = Json::array();
+  for (const fitting::Outlier& outlier : weighting.outliers)
+    outliers.push_back(Json::object({{"sample", static_cast<std::int64_t>(outlier.sample)},
+                                     {"channel", result.channels[outlier.channel].name},
+                                     {"value", outlier.value},
+                                     {"fitted", outlier.fitted},
+                                     {"z", outlier.z}}));
+  for (std::size_t c = 0; c < weighting.variance.size(); ++c) {
+    const fitting::VarianceModel& model = weighting.variance[c];
+    variance.push_back(Json::object(
+        {{"channel", result.channels[c].name}, {"read", model.read}, {"shot", model.shot}, {"gain", model.gain}, {"tilt", model.tilt}}));
+  }
+  return Json::object({{"source", name(weighting.source)},
+                       {"variance", variance},
+                       {"robust", name(weighting.robust)},
+                       {"reason", weighting.reason.empty() ? Json() : Json(weighting.reason)},
+                       {"n_outliers", static_cast<std::int64_t>(weighting.n_outliers)},
+                       {"outliers", outliers}});
+}
+
+/// The same in one line; empty where every sample counted alike.
+std::string weighting_line(const fitting::FitResult& result) {
+  const fitting::Weighting& weighting = result.weighting;
+  std::string text;
+  if (weighting.source != fitting::WeightSource::none) text = fmt::format("  weights from: {}", name(weighting.source));
+  if (weighting.n_outliers > 0)
+    text += fmt::format("{}{} outliers ({}{}{})", text.empty() ? "  " : "; ", weighting.n_outliers, name(weighting.robust),
+                        weighting.reason.empty() ? "" : ": ", weighting.reason);
+  return text;
+}
+
 }  // namespace
 
 Json parameters_document(const fitting::FitResult& result) {
@@ -95,6 +129,7 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
   if (!options.is_null()) document.set("options", std::move(options));
   document.set("parameters", parameters_document(result));
   document.set("errors", errors_document(result.errors));
+  document.set("weighting", weighting_document(result));
   document.set("n_observations", static_cast<std::int64_t>(result.n_observations));
   Json counts = masked_document(masked);
   const std::size_t in_fit = result.n_masked;
@@ -119,6 +154,7 @@ std::vector<std::string> fit_lines(const fitting::FitResult& result) {
   lines.push_back(fmt::format("  rms error: linear {:.4g}, linear-cos {:.4g}, log {:.4g}, log1p {:.4g}, cbrt {:.4g}{}", e.linear,
                               e.linear_cos, e.log, e.log1p, e.cbrt,
                               e.chi2_per_dof ? fmt::format("; chi2 per degree of freedom {:.3f}", *e.chi2_per_dof) : ""));
+  if (const std::string line = weighting_line(result); !line.empty()) lines.push_back(line);
   for (const auto& minimum : result.other_minima)
     lines.push_back(
         fmt::format("  another minimum at {:.6g} with {:.4g} times the cost", fmt::join(minimum.nonlinear, ", "), minimum.cost_ratio));

@@ -14,14 +14,14 @@ namespace gonio::tools {
 struct FitRequest {
   tabulated::ReadOptions read;
   fitting::FitOptions fit;
-  /// Every flag that shapes the result, by its name without dashes; `model` and `metric` always. The same request on the same bytes by
+  /// Every flag that shapes the result, by its name without dashes; `model` always. The same request on the same bytes by
   /// the same version gives the same parameters.
   Json options;
 };
 
 struct FitFlags {
-  std::string metric;  ///< empty: the default of FitOptions
-  std::vector<std::string> fixed;
+  std::string metric, weights, robust;  ///< empty: the default of FitOptions
+  std::vector<std::string> fixed, bounds;
   fitting::FitOptions fit;
   ReadFlags read;
 
