@@ -2,94 +2,95 @@
 #include "fitting/checks/albedo_quadrature.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <utility>
+
+#include "fitting/checks/nearest_nodes.hpp"
 
 namespace gonio::fitting {
 namespace {
 
-constexpr std::size_t squares = 96;                           // across the disc; about 7200 squares, finer than any gantry's grid
+constexpr std::size_t across = 96;                            // across the disc; about 7200 squares, finer than any gantry's grid
 constexpr double least_reach = 0.01745, most_reach = 0.2618;  // 1° and 15° in radians
 constexpr std::size_t neighbours = 3;
 constexpr int zenith_steps = 180, azimuth_steps = 360;  // half a degree and one degree
 
-double distance2(const Direction& a, const Direction& b) {
-  const double x = a.x() - b.x(), y = a.y() - b.y(), z = a.z() - b.z();
-  return x * x + y * y + z * z;
-}
+constexpr double model_trust = 0.25;  // of the change a model makes, for its shape between the samples is assumed
 
-double median_spacing(const std::vector<AlbedoNode>& nodes) {
-  std::vector<double> nearest;
-  for (std::size_t a = 0; a < nodes.size(); ++a) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t b = 0; b < nodes.size(); ++b)
-      if (a != b) least = std::min(least, distance2(nodes[a].wo, nodes[b].wo));
-    nearest.push_back(std::sqrt(least));
-  }
-  const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
-  std::nth_element(nearest.begin(), middle, nearest.end());
-  return *middle;
-}
+struct Square {
+  Direction wo;
+  std::size_t node = 0;  ///< the nearest
+  double model = 1;
+  double half_spread = 0;  ///< of the ratios of the nearest samples
+  bool covered = false;
+};
 
-/// The nearest samples of a direction, nearest first.
-std::array<std::size_t, neighbours> nearest_to(const std::vector<AlbedoNode>& nodes, const Direction& direction, double& least) {
-  std::array<std::size_t, neighbours> found{};
-  std::array<double, neighbours> distance;
-  distance.fill(std::numeric_limits<double>::infinity());
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    double d = distance2(nodes[n].wo, direction);
-    std::size_t candidate = n;
-    for (std::size_t k = 0; k < neighbours; ++k)
-      if (d < distance[k]) std::swap(d, distance[k]), std::swap(candidate, found[k]);
-  }
-  least = std::sqrt(distance[0]);
-  return found;
+std::vector<Square> squares_of(const std::vector<AlbedoNode>& nodes, const AlbedoModel* model) {
+  std::vector<Point> points;
+  for (const AlbedoNode& node : nodes) points.push_back({node.wo.x(), node.wo.y(), node.wo.z()});
+  const NearestNodes tree(std::move(points));
+  const double reach = std::clamp(2 * tree.median_spacing(), least_reach, most_reach), side = 2.0 / across;
+  std::vector<Square> out;
+  for (std::size_t row = 0; row < across; ++row)
+    for (std::size_t column = 0; column < across; ++column) {
+      const double x = -1 + side * (static_cast<double>(column) + 0.5), y = -1 + side * (static_cast<double>(row) + 0.5),
+                   r2 = x * x + y * y;
+      if (r2 >= 1) continue;
+      Square square;
+      square.wo = Direction::trusted(x, y, std::sqrt(1 - r2));
+      const auto near = tree.nearest({x, y, square.wo.z()}, neighbours);
+      square.node = near.front().node;
+      square.covered = near.front().distance <= reach;
+      if (model) square.model = model->f(square.wo);
+      double low = INFINITY, high = -INFINITY;
+      for (const Neighbour& neighbour : near) {
+        const double ratio = nodes[neighbour.node].f / nodes[neighbour.node].model;
+        low = std::min(low, ratio), high = std::max(high, ratio);
+      }
+      square.half_spread = (high - low) / 2;
+      out.push_back(square);
+    }
+  return out;
 }
 
 }  // namespace
 
-AlbedoEstimate scattered_albedo(const std::vector<AlbedoNode>& nodes) {
+double AlbedoEstimate::u() const { return std::hypot(u_noise, u_scale, u_quadrature); }
+
+AlbedoEstimate scattered_albedo(const std::vector<AlbedoNode>& nodes, const AlbedoModel* model) {
   AlbedoEstimate out;
   if (nodes.size() < neighbours) return out;
-  const double reach = std::clamp(2 * median_spacing(nodes), least_reach, most_reach);
+  const std::vector<Square> all = squares_of(nodes, model);
+  const double area = std::numbers::pi / static_cast<double>(all.size());
+  double model_sum = 0, plain_model_sum = 0, missing = 0, edge = 0;
+  for (const Square& square : all) {
+    model_sum += area * square.model, plain_model_sum += area * nodes[square.node].model;
+    if (square.covered) continue;
+    missing += area;
+    edge = std::max(edge, square.model * nodes[square.node].f / nodes[square.node].model);
+  }
+  const double scale = model && model_sum > 0 ? model->albedo / model_sum : 1;
   std::vector<double> weight(nodes.size(), 0.0);
-  double spread = 0, edge = 0;
-  std::size_t inside = 0, covered = 0;
-  const double side = 2.0 / squares;
-  for (std::size_t row = 0; row < squares; ++row)
-    for (std::size_t column = 0; column < squares; ++column) {
-      const double x = -1 + side * (static_cast<double>(column) + 0.5), y = -1 + side * (static_cast<double>(row) + 0.5),
-                   r2 = x * x + y * y;
-      if (r2 >= 1) continue;
-      ++inside;
-      double least = 0;
-      const auto near = nearest_to(nodes, Direction::trusted(x, y, std::sqrt(1 - r2)), least);
-      if (least > reach) {
-        edge = std::max(edge, nodes[near[0]].f);
-        continue;
-      }
-      ++covered;
-      weight[near[0]] += 1;
-      double low = nodes[near[0]].f, high = low;
-      for (const std::size_t n : near) low = std::min(low, nodes[n].f), high = std::max(high, nodes[n].f);
-      spread += (high - low) / 2;
-    }
-  const double area = std::numbers::pi / static_cast<double>(inside);
-  out.covered = static_cast<double>(covered) / static_cast<double>(inside);
-  double variance = 0;
+  double spread = 0;
+  for (const Square& square : all) {
+    if (!square.covered) continue;
+    weight[square.node] += scale * area * square.model / nodes[square.node].model;
+    spread += scale * area * square.model * square.half_spread;
+  }
+  double variance = 0, changed = 0;
   std::vector<double> shared(nodes[0].shared.size(), 0.0);
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    const double w = area * weight[n];
-    out.albedo += w * nodes[n].f;
-    if (std::isfinite(nodes[n].u)) variance += w * w * nodes[n].u * nodes[n].u;
-    for (std::size_t k = 0; k < shared.size(); ++k) shared[k] += w * nodes[n].shared[k];
+    out.albedo += weight[n] * nodes[n].f;
+    if (std::isfinite(nodes[n].u)) variance += weight[n] * weight[n] * nodes[n].u * nodes[n].u;
+    for (std::size_t k = 0; k < shared.size(); ++k) shared[k] += weight[n] * nodes[n].shared[k];
   }
-  for (const double value : shared) variance += value * value;
+  if (model) changed = model_trust * std::abs(plain_model_sum - model->albedo);
   out.u_noise = std::sqrt(variance);
-  out.u_quadrature = area * spread / std::sqrt(3.0);
-  out.missing_bound = std::numbers::pi * (1 - out.covered) * edge;
+  for (const double value : shared) out.u_scale = std::hypot(out.u_scale, value);
+  out.u_quadrature = std::hypot(spread / std::sqrt(3.0), changed);
+  out.covered = 1 - missing / std::numbers::pi;
+  out.missing_bound = missing * std::max(0.0, edge);
   return out;
 }
 

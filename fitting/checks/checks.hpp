@@ -41,8 +41,9 @@ Check check_isotropy(const CheckSubject& subject, const CheckOptions& options);
 /// f is the same on both sides of the plane of incidence. Never `fail` for samples: inside one file an instrument that is off to one side
 /// does the same as the material. Effect: root mean square relative difference beyond the noise.
 Check check_bilateral(const CheckSubject& subject, const CheckOptions& options);
-/// Directional albedo <= 1 for every incidence. Models: the exact bound. Tables: quadrature. Scattered samples: nearest-sample
-/// quadrature over the projected hemisphere, with the part no sample covers bounded. Effect: the largest albedo.
+/// Directional albedo <= 1 for every incidence, each one-sided with Holm over them; `incidences` lists them. Models: the exact bound.
+/// Tables: quadrature. Scattered samples: the ratio to a fitted model over the projected hemisphere, with the part no sample covers
+/// bounded. Effect: the largest albedo.
 Check check_energy(const CheckSubject& subject, const CheckOptions& options);
 /// No value is significantly negative: f < -3u against the number noise gives. Effect: the part of the samples beyond that.
 Check check_positivity(const CheckSubject& subject, const CheckOptions& options);

@@ -7,6 +7,8 @@
 
 #include "fitting/checks/albedo_quadrature.hpp"
 #include "fitting/checks/checks.hpp"
+#include "fitting/checks/fitted_model.hpp"
+#include "fitting/checks/multiple_tests.hpp"
 #include "fitting/checks/sample_places.hpp"
 #include "fitting/distributions.hpp"
 
@@ -18,10 +20,11 @@ constexpr std::size_t enough_nodes = 12;                                        
 constexpr double enough_covered = 0.5;                                             // of the projected hemisphere, for a pass
 
 struct Incidence {
-  std::string name;
+  double theta_deg = 0, phi_deg = 0;
+  std::string channel;
   AlbedoEstimate estimate;
 
-  double u() const { return std::hypot(estimate.u_noise, estimate.u_quadrature); }
+  double u() const { return estimate.u(); }
   double p() const { return u() > 0 ? normal_upper_tail((estimate.albedo - 1) / u()) : (estimate.albedo > 1 ? 0.0 : 1.0); }
 };
 
@@ -36,7 +39,8 @@ void judge_model(Check& check, const AnalyticBrdf& brdf) {
 }
 
 /// Every incidence of a data set with enough outgoing directions, channel by channel.
-void add_incidences(const Dataset& dataset, std::vector<Incidence>& out) {
+void add_incidences(const std::shared_ptr<const Dataset>& data, std::vector<Incidence>& out) {
+  const Dataset& dataset = *data;
   Places index;
   std::vector<std::vector<std::size_t>> samples;
   for (std::size_t k = 0; k < dataset.size(); ++k) {
@@ -46,29 +50,40 @@ void add_incidences(const Dataset& dataset, std::vector<Incidence>& out) {
     if (place == samples.size()) samples.emplace_back();
     samples[place].push_back(k);
   }
-  for (const auto& place : samples)
+  std::erase_if(samples, [](const auto& place) { return place.size() < enough_nodes; });
+  const auto model = samples.empty() ? nullptr : fitted_model(data);
+  for (const auto& place : samples) {
+    const GonioAngles& first = dataset.angles[place.front()];
+    const Direction wi = dataset.symmetry.isotropic ? Direction::spherical(first.theta_i, degrees(0)) : first.wi();
+    const auto model_albedo = model ? model->directional_albedo(first.theta_i) : std::vector<double>();
     for (std::size_t c = 0; c < dataset.channels.size(); ++c) {
+      AlbedoModel shape{[&](const Direction& wo) { return model->eval(wi, wo)[c]; }, model ? model_albedo[c] : 0};
       std::vector<AlbedoNode> nodes;
+      bool positive = model != nullptr;
       for (const std::size_t k : place) {
         const auto mean = mean_of(dataset, c, {k});
-        if (!mean) continue;
+        if (!mean || dataset.angles[k].wo().z() <= 0) continue;
         const PlaceKey key = dataset.symmetry.isotropic ? key_turned(dataset.angles[k]) : key_of(dataset.angles[k]);
-        nodes.push_back({Direction::trusted(key[3], key[4], key[5]), mean->f, mean->u, mean->shared});
+        const Direction wo = Direction::trusted(key[3], key[4], key[5]);
+        nodes.push_back({wo, mean->f, mean->u, mean->shared, model ? shape.f(wo) : 1});
+        positive = positive && nodes.back().model > 0;
         if (!dataset.symmetry.bilateral || !dataset.symmetry.isotropic) continue;
         nodes.push_back(nodes.back());
         nodes.back().wo = Direction::trusted(key[3], -key[4], key[5]);
       }
       if (nodes.size() < enough_nodes) continue;
-      const double theta = dataset.angles[place.front()].theta_i.degrees();
-      out.push_back({fmt::format("incidence {:.4g}°, channel {}", theta, dataset.channels[c].name), scattered_albedo(nodes)});
+      if (!positive)
+        for (AlbedoNode& node : nodes) node.model = 1;
+      out.push_back(
+          {first.theta_i.degrees(), first.phi_i.degrees(), dataset.channels[c].name, scattered_albedo(nodes, positive ? &shape : nullptr)});
     }
+  }
 }
 
 void add_incidences(const Brdf& brdf, std::vector<Incidence>& out) {
   for (const double theta : incidences_deg) {
     const auto estimates = evaluated_albedo(brdf, Direction::spherical(degrees(theta), degrees(0)));
-    for (std::size_t c = 0; c < estimates.size(); ++c)
-      out.push_back({fmt::format("incidence {:.4g}°, channel {}", theta, brdf.channels()[c].name), estimates[c]});
+    for (std::size_t c = 0; c < estimates.size(); ++c) out.push_back({theta, 0, brdf.channels()[c].name, estimates[c]});
   }
 }
 
@@ -91,10 +106,20 @@ void judge_incidences(Check& check, const std::vector<Incidence>& incidences, co
   if (shown.u() > 0) check.statistic = (shown.estimate.albedo - 1) / shown.u();
   check.effect_upper = covered < enough_covered ? INFINITY : highest;
   check.verdict = judge(significant, *check.effect, *check.effect_upper, *check.threshold);
-  check.detail =
-      fmt::format("largest directional albedo {:.4f} ± {:.2g} ({}), from samples that cover {:.0f} % of the projected hemisphere",
-                  shown.estimate.albedo, shown.u(), shown.name, 100 * shown.estimate.covered);
+  check.detail = fmt::format(
+      "largest directional albedo {:.4f} ± {:.2g} (incidence {:.4g}°, channel {}), from samples that cover {:.0f} % of the projected "
+      "hemisphere",
+      shown.estimate.albedo, shown.u(), shown.theta_deg, shown.channel, 100 * shown.estimate.covered);
   if (shown.estimate.missing_bound > 0) check.detail += fmt::format("; the rest may add {:.2g}", shown.estimate.missing_bound);
+  std::vector<double> p;
+  for (const Incidence& i : incidences) {
+    p.push_back(i.p());
+    check.incidences.push_back({i.theta_deg, i.phi_deg, i.channel, i.estimate.albedo, i.estimate.u_noise, i.estimate.u_quadrature,
+                                i.estimate.u_scale, i.estimate.covered, i.estimate.missing_bound});
+  }
+  const auto adjusted = holm(p);
+  const auto above = std::count_if(adjusted.begin(), adjusted.end(), [&](double value) { return value < options.alpha; });
+  if (above > 0) check.detail += fmt::format("; {} of {} incidences and channels lie above 1 (Holm)", above, incidences.size());
   if (check.verdict == Verdict::vacuous) check.detail += "; the data cannot tell whether the whole stays below 1";
 }
 
@@ -113,7 +138,7 @@ Check check_energy(const CheckSubject& subject, const CheckOptions& options) {
   if (subject.brdf)
     add_incidences(*subject.brdf, incidences);
   else
-    for (const auto& dataset : subject.datasets) add_incidences(*dataset, incidences);
+    for (const auto& dataset : subject.datasets) add_incidences(dataset, incidences);
   std::erase_if(incidences, [](const Incidence& i) { return i.estimate.covered <= 0; });
   if (incidences.empty()) {
     check.verdict = Verdict::vacuous;

@@ -39,8 +39,8 @@ TEST_CASE("energy: scattered samples of a bright surface fail, of a modest one p
   CHECK(refused_at_one <= 3);
 }
 TEST_CASE("energy: a node on an unresolved peak is no proof, and one plane of samples is vacuous") {
-  // s = 5000 on a 10° grid: the nearest-sample rule would put the albedo far above one.
-  const Check sharp = run(check_energy, readings(lobe("blinn-phong", .1, .5, 5000), polar_grid({20}, 10, 15), percent, 1));
+  // s = 1e5 on a 10° grid: the nearest-sample rule would put the albedo far above one.
+  const Check sharp = run(check_energy, readings(lobe("blinn-phong", .1, .5, 1e5), polar_grid({20}, 10, 15), percent, 1));
   INFO(sharp.detail);
   CHECK(sharp.verdict == Verdict::vacuous);
   std::vector<GonioAngles> plane;
@@ -62,4 +62,16 @@ TEST_CASE("energy: a function without a closed form is integrated") {
   INFO(check.detail);
   CHECK(check.verdict == Verdict::fail);
   CHECK(*check.effect == Approx(1.0499).margin(5e-4));
+}
+
+TEST_CASE("energy: every incidence is listed with its uncertainties, and the ones above one are counted") {
+  const Check check = run(check_energy, readings(lobe("blinn-phong", .5, .6, 50), polar_grid({10, 30, 60}, 10, 15), percent, 3));
+  INFO(check.detail);
+  CHECK(check.verdict == Verdict::fail);
+  REQUIRE(check.incidences.size() == 3);
+  CHECK(check.incidences[1].theta_i_deg == Approx(30));
+  CHECK(check.incidences[0].albedo == Approx(lobe("blinn-phong", .5, .6, 50).directional_albedo(degrees(10))[0]).epsilon(.02));
+  CHECK(check.incidences[0].u_noise > 0);
+  CHECK(check.incidences[0].u_quadrature < .02);
+  CHECK(check.detail.find("of 3 incidences") != std::string::npos);
 }
