@@ -11,7 +11,9 @@
 #include "brdf/error.hpp"
 #include "fitting/fit_checks.hpp"
 #include "fitting/fit_errors.hpp"
+#include "fitting/point_fit.hpp"
 #include "fitting/solution.hpp"
+#include "fitting/weigher.hpp"
 
 namespace gonio::fitting {
 namespace {
@@ -83,6 +85,45 @@ SolveOptions solve_options(const FitOptions& options, const ModelKernel& kernel,
   return out;
 }
 
+/// What is asked of the weights, with the defaults of FitOptions filled in.
+WeigherOptions weigher_options(const FitOptions& options) {
+  const bool by_default = options.weights == Weights::automatic && !options.metric;
+  WeigherOptions out;
+  out.estimate_variance = options.weights == Weights::variance || by_default;
+  out.robust = options.robust.value_or(by_default ? Robust::automatic : Robust::none);
+  return out;
+}
+
+std::size_t free_parameters(const SolveOptions& options) {
+  std::size_t out = 0;
+  for (const LinearLimits& channel : options.limits)
+    for (const double held : channel.held) out += std::isnan(held);
+  for (const Wanted& wanted : options.nonlinear) out += std::isnan(wanted.held);
+  return out;
+}
+
+/// Adds what was found for channels from `first` on.
+void add_weighting(Weighting& to, Weighting from, std::size_t first) {
+  for (Outlier& outlier : from.outliers) outlier.channel += first;
+  const std::size_t counted = from.outliers.size();
+  to.source = from.source;
+  to.variance.insert(to.variance.end(), from.variance.begin(), from.variance.end());
+  if (first == 0 || from.robust != Robust::none) to.robust = from.robust, to.reason = from.reason;
+  to.n_outliers += from.n_outliers - counted;
+  to.add(std::move(from.outliers));
+}
+
+void add_angles(std::vector<Outlier>& outliers, const Observations& observations) {
+  std::vector<GonioAngles> angles;
+  auto outlier = outliers.begin();
+  for (std::size_t b = 0, first = 0; b < observations.block_count() && outlier != outliers.end(); ++b) {
+    const std::size_t end = first + observations.block(b).size;
+    if (outlier->sample < end) observations.angles(b, angles);
+    for (; outlier != outliers.end() && outlier->sample < end; ++outlier) outlier->angles = angles[outlier->sample - first];
+    first = end;
+  }
+}
+
 FittedParameter fitted(const Parameter& parameter, const Estimate& estimate, std::optional<std::size_t> channel) {
   return {std::string(parameter.name),
           channel,
@@ -95,12 +136,13 @@ FittedParameter fitted(const Parameter& parameter, const Estimate& estimate, std
           parameter.upper};
 }
 
-/// Solutions in channel order: one for all, or one per channel.
-void assemble(FitResult& result, const std::vector<Solution>& solutions, const Terms& terms) {
-  const ModelKernel& kernel = terms.kernel;
+/// Solutions in channel order: one for all, or one per channel; the weighting stands in the result already.
+void assemble(FitResult& result, const std::vector<Solution>& solutions, const ModelKernel& kernel) {
   const auto& parameters = kernel.info->parameters;
   std::vector<Matrix> covariance;
-  double cost = 0, dof = 0, budget = 0, signal_to_noise2 = 0;
+  double chi2 = 0, dof = 0, budget = 0, signal_to_noise2 = 0;
+  const bool absolute = result.weighting.source == WeightSource::uncertainty || result.weighting.source == WeightSource::repeats ||
+                        result.weighting.source == WeightSource::rows;
   std::size_t count = 0;
   result.status = Status::converged;
   std::size_t channel = 0;
@@ -120,17 +162,18 @@ void assemble(FitResult& result, const std::vector<Solution>& solutions, const T
         result.parameters.push_back(fitted(parameters[k], solution.linear_estimate[c][k], channel));
       covariance.push_back(solution.covariance_of(c));
     }
-    cost += solution.cost;
-    dof += solution.dof;
+    signal_to_noise2 += solution.signal_to_noise2;
+    count += solution.count;
+    chi2 += solution.chi2;
+    dof += solution.chi2_dof;
     budget = std::max(budget, solution.budget);
   }
   for (std::size_t k = 0; k < solutions.size(); ++k)
     for (std::size_t j = 0; j < kernel.nonlinear; ++j)
       result.parameters.push_back(fitted(parameters[kernel.linear + j], solutions[k].nonlinear_estimate[j],
                                          solutions.size() > 1 ? std::optional(k) : std::nullopt));
-  for (const ChannelTerms& data : terms.channel) signal_to_noise2 += data.weighted_value2, count += data.count;
-  if (terms.weighted && dof >= 1) result.errors.chi2_per_dof = cost / dof;
-  result.checks = {energy_bound(result, kernel, covariance), at_bound(result), adequacy(cost, dof, signal_to_noise2, count, terms.weighted),
+  if (absolute && dof >= 1) result.errors.chi2_per_dof = chi2 / dof;
+  result.checks = {energy_bound(result, kernel, covariance), at_bound(result), adequacy(chi2, dof, signal_to_noise2, count, absolute),
                    second_minimum(result, *kernel.info, budget, solutions.front().cost)};
 }
 
@@ -178,7 +221,10 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   result.metric = options.metric.value_or(Metric::linear);
   result.channels = observations.channels();
 
-  Terms terms = make_terms(observations, kernel, result.metric, options.threads);
+  WeigherOptions weigher = weigher_options(options);
+  // With weights by the variance of f the cosine of linear-cos cancels.
+  const bool cancels = weigher.estimate_variance && result.metric == Metric::linear_cos;
+  Terms terms = make_terms(observations, kernel, cancels ? Metric::linear : result.metric, options.threads, weigher.robust);
   result.n_observations = terms.n_observations;
   result.n_masked = terms.n_masked;
   const std::size_t channels = terms.channel.size();
@@ -188,25 +234,36 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   } else {
     std::vector<Solution> solutions;
     const auto correlated = observations.correlated();
+    const auto repeats = weigher.estimate_variance && !terms.weighted && !terms.collapsed ? repeated_readings(observations)
+                                                                                          : std::vector<RepeatedReadings>{};
+    weigher.repeats = repeats;
+    const auto solved = [&](Terms& these, std::size_t first) {
+      const SolveOptions how = solve_options(options, kernel, these.channel.size());
+      weigher.free_parameters = free_parameters(how);
+      PointFit point_fit(these, how);
+      add_weighting(result.weighting, weigh(these, weigher, [&](bool global) { return point_fit(global); }), first);
+      return solve(these, how, correlated);
+    };
     if (options.per_channel && channels > 1) {
       for (std::size_t c = 0; c < channels; ++c) {
         Terms one = only_channel(terms, c);
-        solutions.push_back(solve(one, solve_options(options, kernel, 1), correlated));
+        solutions.push_back(solved(one, c));
       }
     } else {
-      solutions.push_back(solve(terms, solve_options(options, kernel, channels), correlated));
+      solutions.push_back(solved(terms, 0));
     }
     const auto broken = std::find_if(solutions.begin(), solutions.end(), [](const Solution& s) { return s.linear.empty(); });
     if (broken != solutions.end()) {
       result.status = Status::failed;
       result.reason = broken->reason;
     } else {
-      assemble(result, solutions, terms);
+      assemble(result, solutions, kernel);
       const auto chi2_per_dof = result.errors.chi2_per_dof;
       result.errors = fit_errors(observations, kernel, result.values, options.threads);
       result.errors.chi2_per_dof = chi2_per_dof;
     }
   }
+  add_angles(result.weighting.outliers, observations);
   result.fit_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

@@ -17,6 +17,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t interval_nodes = 33;  // across the interval of the nonlinear parameter, a parabola through the best three
 constexpr double rounding = 1e-13;          // of the terms themselves: a perfect fit still has this much uncertainty
+constexpr double significant = 0.01;        // probability of a χ² that widens intervals
 constexpr std::size_t many_rows = 1000;     // worth several threads
 
 /// The profile along the one axis of the search.
@@ -163,11 +164,25 @@ void estimate(Solution& solution, const Profile& profile, const SearchSpace& spa
     for (const double held : profile.limits()[c].held) free_parameters += std::isnan(held);
   }
   solution.dof = count - free_parameters;
-  const bool scale_known = terms.weighted || solution.dof >= 1;
+  const bool scale_known = terms.weighted || terms.pure_error || solution.dof >= 1;
   const double floor = rounding * rounding * size_of_terms;
-  const double scale = terms.weighted ? 1 : std::max(solution.cost, floor) / std::max(1.0, solution.dof);
-  const double q = terms.weighted ? normal_upper_quantile((1 - options.confidence) / 2)
-                                  : student_two_sided_quantile(options.confidence, std::max(1.0, solution.dof));
+  double constants = 0, informative = 0;
+  for (const ChannelTerms& data : terms.channel) {
+    constants += data.within;
+    solution.signal_to_noise2 += data.weighted_value2;
+    solution.count += data.count;
+    informative += static_cast<double>(
+        terms.collapsed ? std::count_if(data.weight.begin(), data.weight.end(), [](double w) { return w > 0; }) : data.count);
+  }
+  solution.chi2 = terms.pure_error ? solution.cost - constants : solution.cost;
+  solution.chi2_dof = terms.pure_error ? informative - free_parameters : solution.dof;
+  const bool misses = terms.pure_error && solution.chi2_dof >= 1 && chi2_upper_tail(solution.chi2, solution.chi2_dof) < significant;
+  const bool absolute = terms.weighted || terms.pure_error;
+  const double scale = misses     ? solution.chi2 / solution.chi2_dof
+                       : absolute ? 1
+                                  : std::max(solution.cost, floor) / std::max(1.0, solution.dof);
+  const double q = absolute ? normal_upper_quantile((1 - options.confidence) / 2)
+                            : student_two_sided_quantile(options.confidence, std::max(1.0, solution.dof));
   solution.budget = std::max(q * q * scale, floor);
 
   const auto linearised = [&](const CorrelatedComponent* component) {

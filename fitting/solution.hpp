@@ -31,7 +31,12 @@ struct Solution {
   std::vector<std::vector<double>> linear;  ///< [channel][k]
   std::vector<double> theta;                ///< every nonlinear parameter
   double cost = 0, dof = 0;
-  double budget = 0;  ///< rise of the cost that ends an interval
+  /// χ² with its degrees of freedom where the weights do not come from the residuals. With weights from the scatter inside rows or among
+  /// repeats (Terms::pure_error) what is constant inside rows is in neither.
+  double chi2 = 0, chi2_dof = 0;
+  double signal_to_noise2 = 0;  ///< Σ f²/σ²
+  std::size_t count = 0;        ///< values used
+  double budget = 0;            ///< rise of the cost that ends an interval
   std::vector<OtherSolution> others;
   std::vector<std::vector<Estimate>> linear_estimate;  ///< [channel][k]
   std::vector<Estimate> nonlinear_estimate;
@@ -56,7 +61,8 @@ Solution solve(Terms& terms, const SolveOptions& options, const std::vector<Corr
 
 /// Fills the estimates of a solution (numerics D.4, D.5): profile intervals in the cost, a sigma only where both ends exist. The interval
 /// of a parameter is the hull of its values over all sets of parameters with a cost of at most the least cost plus
-///   budget = q² where the data carry u (q of the normal distribution), q² · cost/dof of Student's t where not.
+///   budget = q² where the data carry u (q of the normal distribution), q² · cost/dof of Student's t where not. With weights from the
+///   scatter of the data themselves q², times χ²/dof if χ² says that the model misses more than that scatter (the ratio of Birge 1932).
 /// Correlated components widen both ends and sigma in squares by their linearised effect on the parameter.
 void estimate(Solution& solution, const Profile& profile, const SearchSpace& space, const Found& found, const SolveOptions& options,
               const std::vector<CorrelatedComponent>& correlated);

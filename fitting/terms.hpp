@@ -32,8 +32,9 @@ struct Terms {
   std::vector<LobeGeometry> geometry;  ///< one per row
   std::vector<std::size_t> sample;     ///< number of the sample of every row; empty if collapsed
   std::vector<ChannelTerms> channel;
-  bool weighted = false;   ///< weights are 1/variance, so that the sum is a χ²
-  bool collapsed = false;  ///< a row is a whole block
+  bool weighted = false;    ///< weights are 1/variance, so that the sum is a χ²
+  bool pure_error = false;  ///< weights are 1/variance of the scatter of the data among themselves, whatever the model misses
+  bool collapsed = false;   ///< a row is a whole block
   std::size_t n_observations = 0, n_masked = 0;
   std::vector<Outlier> outliers;  ///< of collapsed rows, left out or weighed down there
 

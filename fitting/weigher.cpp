@@ -53,11 +53,15 @@ class Weigher {
     if (!fitted) return out;
     if (estimated_) {
       repeated_ = from_repeats();
+      terms_.pure_error = repeated_;
       out.source = repeated_ ? WeightSource::repeats : WeightSource::residuals;
       if (!weigh_by_variance(*fitted)) return out;
     }
     if (options_.robust != Robust::none) robust(*fitted, out);
-    if (estimated_) out.variance = variance_;
+    if (estimated_) {
+      out.variance = variance_;
+      add_signal_to_noise(*fitted);
+    }
     return out;
   }
 
@@ -78,6 +82,16 @@ class Weigher {
     const double cos_i = terms_.geometry[row].cos_i;
     if (!terms_.transform.linear() && !terms_.transform.defined(fitted, cos_i)) return 0;
     return std::sqrt(plain_weight(c, row, fitted)) * (terms_.channel[c].target[row] - terms_.transform.value(fitted, cos_i));
+  }
+
+  void add_signal_to_noise(const Fitted& fitted) {
+    for (std::size_t c = 0; c < base_.size(); ++c) {
+      double& sum = terms_.channel[c].weighted_value2 = 0;
+      for (std::size_t row = 0; row < base_[c].size(); ++row) {
+        const double f = fitted[c][row];
+        if (used(c, row)) sum += f * f / std::max(variance_[c](f, tan2_[row]), floor_[c]);
+      }
+    }
   }
 
   void set_weights(const Fitted& fitted, Robust loss) {
@@ -332,8 +346,9 @@ class Weigher {
   bool estimated_ = false, repeated_ = false;
 };
 
-/// Every row by its own scatter, drawn towards the model of all rows of its channel.
-void weigh_rows(Terms& terms) {
+/// Every row by its own scatter, drawn towards the model of all rows of its channel, which comes back.
+std::vector<VarianceModel> weigh_rows(Terms& terms) {
+  std::vector<VarianceModel> models;
   for (ChannelTerms& channel : terms.channel) {
     DeviationCells cells;
     double largest = 0;
@@ -354,7 +369,9 @@ void weigh_rows(Terms& terms) {
       channel.within += variance > 0 ? channel.row_within[row] / variance : 0;
       channel.weighted_value2 += channel.weight[row] * channel.target[row] * channel.target[row];
     }
+    models.push_back(model);
   }
+  return models;
 }
 
 }  // namespace
@@ -364,7 +381,8 @@ Weighting weigh(Terms& terms, const WeigherOptions& options, const Fitter& fitte
   Weighting out;
   out.source = terms.weighted ? WeightSource::uncertainty : WeightSource::none;
   if (options.estimate_variance && !terms.weighted) {
-    weigh_rows(terms);
+    out.variance = weigh_rows(terms);
+    terms.pure_error = true;
     out.source = WeightSource::rows;
   }
   if (options.robust == Robust::none) return out;

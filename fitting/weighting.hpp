@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "brdf/coordinates.hpp"
 #include "fitting/robust.hpp"
 #include "fitting/variance_model.hpp"
 
@@ -39,11 +40,12 @@ struct Outlier {
   std::size_t channel = 0;       ///< number of the channel
   double value = 0, fitted = 0;  ///< 1/sr
   double z = 0;                  ///< (value - fitted) over the standard deviation of one reading
+  GonioAngles angles = {};       ///< of the sample
 };
 
 struct Weighting {
   WeightSource source = WeightSource::none;
-  std::vector<VarianceModel> variance;  ///< per channel; empty unless the source is repeats or residuals
+  std::vector<VarianceModel> variance;  ///< per channel; empty unless the source is repeats, rows or residuals
   Robust robust = Robust::none;         ///< what was done; automatic: outliers were left out
   std::string reason;                   ///< one sentence on why that was done; empty if nothing was asked for
   std::size_t n_outliers = 0;           ///< values left out, or beyond the outlier limit under a loss

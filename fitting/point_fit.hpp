@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The best values of a fit without anything around them, as its weights are being found.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fitting/global_search.hpp"
+#include "fitting/solution.hpp"
+
+namespace gonio::fitting {
+
+/// Fits the same terms again and again while somebody else changes their weights. A global search looks at a part of many rows and
+/// descends on all of them.
+class PointFit {
+ public:
+  /// Both must outlive this.
+  PointFit(const Terms& terms, const SolveOptions& options);
+
+  /// Fitted values [1/sr], [channel][row], at the lowest minimum; none where the cost is finite nowhere. A search that is not `global`
+  /// descends from the last minimum.
+  std::optional<std::vector<std::vector<double>>> operator()(bool global);
+
+ private:
+  const Terms& terms_;
+  const SolveOptions& options_;
+  SearchSpace space_;
+  std::optional<Minimum> last_;
+};
+
+/// f̂ [1/sr] of every row in every channel.
+std::vector<std::vector<double>> fitted_values(const Terms& terms, const std::vector<std::vector<double>>& linear,
+                                               const std::vector<double>& theta);
+
+}  // namespace gonio::fitting
