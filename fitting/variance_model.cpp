@@ -2,6 +2,7 @@
 #include "fitting/variance_model.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,11 +15,12 @@ namespace gonio::fitting {
 namespace {
 
 constexpr int lowest_octave = -40, octaves = 80;  // 1e-12 … 1e12 1/sr
-constexpr std::size_t per_octave = 8, incidence_classes = 8;
-constexpr double least_cosine = 1e-3;  // of the incidence, 89.94°: beyond it the tangent says nothing of the noise any more
-constexpr double enough_dof = 30;      // below it a constant variance is all that can be told
+constexpr std::size_t per_octave = 4, incidence_classes = 4;
+constexpr double least_cosine = 1e-3;             // of the incidence, 89.94°: beyond it the tangent says nothing of the noise any more
+constexpr double enough_dof = 30;                 // below it a constant variance is all that can be told
+constexpr unsigned gain_part = 4, tilt_part = 8;  // of a set of parts; tilt grows with f like gain and is looked for beside it
 constexpr int most_steps = 50;
-constexpr double settled = 1e-6;     // of the likelihood per degree of freedom
+constexpr double settled = 1e-7;     // of the likelihood per degree of freedom
 constexpr double least_part = 1e-9;  // of the largest variance: keeps the weights of perfectly repeated cells finite
 
 std::size_t cell_of(double f, double tan2_i) noexcept {
@@ -74,13 +76,13 @@ Candidate most_likely(const std::vector<Sums>& cells, unsigned mask) {
   for (const Sums& cell : cells) v.push_back((cell.dof * cell.mean_square + 2 * mean) / (cell.dof + 2));
   for (int step = 0; step < most_steps; ++step) {
     Triangle triangle(columns.size() + 1);
-    Matrix row(1, columns.size() + 1);
+    Matrix rows(cells.size(), columns.size() + 1);
     for (std::size_t j = 0; j < cells.size(); ++j) {
       const double root = std::sqrt(cells[j].dof) / std::max(v[j], floor);
-      for (std::size_t k = 0; k < columns.size(); ++k) row(0, k) = root * cells[j].x[columns[k]];
-      row(0, columns.size()) = root * cells[j].mean_square;
-      triangle.add(row, 1);
+      for (std::size_t k = 0; k < columns.size(); ++k) rows(j, k) = root * cells[j].x[columns[k]];
+      rows(j, columns.size()) = root * cells[j].mean_square;
     }
+    triangle.add(rows, cells.size());
     const std::size_t n = columns.size();
     const auto rhs = triangle.r().column(n).first(n);
     const std::vector<double> free(n, std::numeric_limits<double>::quiet_NaN());
@@ -136,6 +138,17 @@ void DeviationCells::add(const DeviationCells& other) noexcept {
   dof_ += other.dof_;
 }
 
+double DeviationCells::mean_ratio(const VarianceModel& model) const noexcept {
+  const std::array<double, 4> part{model.read, model.shot, model.gain * model.gain, model.tilt * model.tilt};
+  double sum = 0;
+  for (const Cell& cell : cells_) {
+    double v = 0;
+    for (std::size_t k = 0; k < part.size(); ++k) v += part[k] * cell.regressor[k];
+    if (cell.dof > 0 && v > 0) sum += cell.square / v * cell.dof;
+  }
+  return dof_ > 0 ? sum / dof_ : 1;
+}
+
 double information_criterion(const DeviationCells& cells, const VarianceModel& model) {
   const std::array<double, 4> part{model.read, model.shot, model.gain * model.gain, model.tilt * model.tilt};
   double largest = 0;
@@ -168,15 +181,20 @@ VarianceModel variance_model(const DeviationCells& cells) {
   model.read = square / cells.dof();
   if (cells.dof() < enough_dof) return model;
 
+  const double penalty = std::log(cells.dof());
   double least = std::numeric_limits<double>::infinity();
-  for (unsigned mask = 1; mask < 16; ++mask) {
+  unsigned chosen = 0;
+  const auto consider = [&](unsigned mask) {
     const Candidate candidate = most_likely(sums, mask);
-    double parts = 0;
-    for (unsigned k = 0; k < 4; ++k) parts += (mask >> k) & 1u;
-    const double criterion = candidate.minus_two_log_likelihood + parts * std::log(cells.dof());
-    if (!(criterion < least)) continue;
-    least = criterion;
+    const double criterion = candidate.minus_two_log_likelihood + penalty * std::popcount(mask);
+    if (!(criterion < least)) return;
+    least = criterion, chosen = mask;
     model = {candidate.part[0], candidate.part[1], std::sqrt(candidate.part[2]), std::sqrt(candidate.part[3])};
+  };
+  for (unsigned mask = 1; mask < 8; ++mask) consider(mask);
+  if (chosen & gain_part) {
+    consider(chosen | tilt_part);
+    consider((chosen & ~gain_part) | tilt_part);
   }
   return model;
 }

@@ -28,7 +28,7 @@ struct VarianceModel {
 /// tan² θi from its cosine, limited where the cosine vanishes.
 double tan_squared(double cosine) noexcept;
 
-/// Squared deviations of readings from their expected values, added up in cells of nearly equal variance: eight per octave of f, eight
+/// Squared deviations of readings from their expected values, added up in cells of nearly equal variance: four per octave of f, four
 /// of the incidence. The parts of the model are linear in the sums, so nothing but a little efficiency is lost with the binning.
 class DeviationCells {
  public:
@@ -40,6 +40,8 @@ class DeviationCells {
   void add(const DeviationCells& other) noexcept;
   void clear() noexcept;
   double dof() const noexcept { return dof_; }
+  /// Mean of the squares over their variances by a model; 1 ± √(2/dof) if it is the right one.
+  double mean_ratio(const VarianceModel& model) const noexcept;
 
  private:
   friend VarianceModel variance_model(const DeviationCells& cells);
@@ -53,8 +55,9 @@ class DeviationCells {
 };
 
 /// The parts that maximise the likelihood of normal deviations, none below zero, by Fisher scoring: least squares of the squares with
-/// weights dof/(2 σ⁴). Of all sets of parts the one with the least Bayesian information criterion (Schwarz 1978) counts, so a part that
-/// the data do not ask for is exactly 0; with too few degrees of freedom for a choice the variance is a constant.
+/// weights dof/(2 σ⁴). Of all sets of read, shot and gain, and then of those with tilt beside or instead of gain, the one with the least
+/// Bayesian information criterion (Schwarz 1978) counts, so a part that the data do not ask for is exactly 0; with too few degrees of
+/// freedom for a choice the variance is a constant.
 VarianceModel variance_model(const DeviationCells& cells);
 
 /// Bayesian information criterion of a model: -2 ln of the likelihood of the deviations, up to a constant of theirs, and ln dof for

@@ -16,6 +16,7 @@ constexpr int robust_rounds = 12;          // Cauchy weights with a global searc
 constexpr int fewest_robust_rounds = 3;    // a list of outliers that stands still sooner may still be that of the start
 constexpr double truncation = 2;           // of the squares of a robust scale
 constexpr int truncated_rounds = 20;       // one contracts an excess of outliers at least by half
+constexpr double apart = 4;                // standard deviations of the mean of a channel's squares
 constexpr double enough_repeats = 0.2;     // part of the samples that must be repeated
 constexpr std::size_t fewest_values = 30;  // below it a variance, let alone an outlier, cannot be told
 constexpr double median_of_normal = 0.6744897501960817, least_median = 0.75;  // part of it; below: the tails are heavy
@@ -142,19 +143,23 @@ class Weigher {
     }
   }
 
-  /// One model for all channels, or one each, by the information criterion.
+  /// One model for all channels, or, where their mean squares do not agree with it, one each if the information criterion says so.
   void choose_models() {
-    variance_.clear();
     DeviationCells all;
-    double own = 0;
-    for (const DeviationCells& cells : cells_) {
-      variance_.push_back(variance_model(cells));
-      own += information_criterion(cells, variance_.back());
-      all.add(cells);
-    }
-    if (cells_.size() < 2) return;
+    for (const DeviationCells& cells : cells_) all.add(cells);
     const VarianceModel shared = variance_model(all);
-    if (information_criterion(all, shared) <= own) variance_.assign(cells_.size(), shared);
+    variance_.assign(cells_.size(), shared);
+    const bool agree = std::all_of(cells_.begin(), cells_.end(), [&](const DeviationCells& cells) {
+      return std::abs(cells.mean_ratio(shared) - 1) * std::sqrt(cells.dof() / 2) < apart;
+    });
+    if (agree || cells_.size() < 2) return;
+    std::vector<VarianceModel> own;
+    double criterion = 0;
+    for (const DeviationCells& cells : cells_) {
+      own.push_back(variance_model(cells));
+      criterion += information_criterion(cells, own.back());
+    }
+    if (criterion < information_criterion(all, shared)) variance_ = std::move(own);
   }
 
   /// The scale of the residuals where the weights are those of the data: 1 for stated uncertainties that are too large.
