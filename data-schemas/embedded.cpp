@@ -46,6 +46,7 @@ const char* name(Schema schema) noexcept {
     case Schema::tradeoff: return "tradeoff";
     case Schema::fit_line: return "fit-line";
     case Schema::choice: return "choice";
+    case Schema::compare: return "compare";
   }
   return "";
 }
