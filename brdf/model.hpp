@@ -37,6 +37,13 @@ struct ModelProperties {
   bool bounded = true;  ///< the directional albedo stays finite up to grazing incidence
 };
 
+/// What a lobe's value in its peak, at normal incidence, is called in the model's own parameters: data that see nothing but the peak
+/// determine this and no parameter. expression = scale · (the lobe's value there in 1/sr).
+struct PeakName {
+  std::string_view expression, unit;
+  double scale;
+};
+
 /// An analytic BRDF model: f = Σ_k linear_k · basis_k(geometry; nonlinear), in 1/sr, cosine not included.
 ///
 /// `parameters` lists the linear parameters first, in the order of the basis; the first is always `rho_d` and its basis function the
@@ -45,7 +52,7 @@ struct ModelProperties {
 ///
 /// Optional: `albedo(theta, nonlinear, out)`, the directional albedo of each basis function in closed form, and with it
 /// `albedo_bound(nonlinear, out)`, its supremum over all incidences, reached at the normal by every basis function, so that energy is
-/// conserved iff Σ linear_k · bound_k <= 1. Models without them are integrated numerically.
+/// conserved iff Σ linear_k · bound_k <= 1. Models without them are integrated numerically. Also optional: `peak`, a PeakName.
 template <class M>
 concept AnalyticModel = requires(const LobeGeometry& g, const double* nonlinear, double* out) {
   { M::name } -> std::convertible_to<std::string_view>;

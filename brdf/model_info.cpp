@@ -51,6 +51,7 @@ const List& list() {
       info.depends_on = M::depends_on;
       info.properties = M::properties;
       info.closed_albedo = ClosedAlbedo<M>;
+      if constexpr (requires { M::peak; }) info.peak = M::peak;
       all.infos.push_back(std::move(info));
       Kernel kernel{&basis_of<M>, nullptr, nullptr};
       if constexpr (ClosedAlbedo<M>) kernel.albedo = &M::albedo, kernel.albedo_bound = &M::albedo_bound;

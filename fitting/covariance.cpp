@@ -2,6 +2,7 @@
 #include "fitting/covariance.hpp"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -79,6 +80,28 @@ Matrix covariance(const Linearisation& at, const ParameterPlaces& places, const 
           scale * sum / (joint.length[a] * joint.length[b]);
     }
   return out;
+}
+
+std::optional<double> variance_of(const Linearisation& at, const ParameterPlaces& places, const SearchSpace& space, double scale,
+                                  const std::vector<double>& gradient) {
+  const Joint joint(at, places, space);
+  Eigen::VectorXd scaled(static_cast<Eigen::Index>(joint.place.size()));
+  std::size_t touched = 0;
+  for (Eigen::Index a = 0; a < scaled.size(); ++a) {
+    const double slope = gradient[joint.place[static_cast<std::size_t>(a)]];
+    scaled[a] = slope / joint.length[a];
+    touched += slope != 0;
+  }
+  const auto all = gradient.size() - static_cast<std::size_t>(std::count(gradient.begin(), gradient.end(), 0.0));
+  if (touched == 0 || touched < all) return std::nullopt;
+  double in_range = 0, variance = 0;
+  for (Eigen::Index i = 0; i < joint.rank; ++i) {
+    const double part = joint.svd.matrixV().col(i).dot(scaled), value = joint.svd.singularValues()[i];
+    in_range += part * part;
+    variance += part * part / (value * value);
+  }
+  if (scaled.squaredNorm() - in_range > part_in_null_space * part_in_null_space * scaled.squaredNorm()) return std::nullopt;
+  return scale * variance;
 }
 
 std::vector<double> response(const Linearisation& at, const ParameterPlaces& places, const SearchSpace& space) {

@@ -2,6 +2,7 @@
 // The covariance of all parameters where it exists.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "fitting/linearisation.hpp"
@@ -21,6 +22,11 @@ struct ParameterPlaces {
 /// that is held, lies at a bound or has no effect, and of one whose part in the null space is larger than 0.1: a pseudo-inverse would
 /// call it perfectly known (numerics D.5).
 Matrix covariance(const Linearisation& at, const ParameterPlaces& places, const SearchSpace& space, double scale);
+
+/// The variance of a function of the parameters with this gradient; none if the gradient has a part of more than 0.1 in the null space,
+/// or touches a parameter that does not move.
+std::optional<double> variance_of(const Linearisation& at, const ParameterPlaces& places, const SearchSpace& space, double scale,
+                                  const std::vector<double>& gradient);
 
 /// How far one standard uncertainty of the component at whose shift `at` was made moves every parameter; 0 for those without covariance.
 std::vector<double> response(const Linearisation& at, const ParameterPlaces& places, const SearchSpace& space);

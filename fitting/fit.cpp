@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -136,6 +137,66 @@ FittedParameter fitted(const Parameter& parameter, const Estimate& estimate, std
           parameter.upper};
 }
 
+/// An expression in a term's own names with those of the whole model.
+std::string in_names_of(const ModelInfo& info, const ModelTerm& term, std::string_view expression) {
+  std::string out, word;
+  const auto finish = [&] {
+    for (std::size_t k = 0; k < term.model->parameters.size(); ++k) {
+      const bool linear = k < term.model->linear_count;
+      if (word != term.model->parameters[k].name || (linear && k < term.first_basis)) continue;
+      word =
+          info.parameters[linear ? term.linear + k - term.first_basis : info.linear_count + term.nonlinear + k - term.model->linear_count]
+              .name;
+      break;
+    }
+    out += word;
+    word.clear();
+  };
+  for (const char c : expression)
+    if (std::isalnum(static_cast<unsigned char>(c)) || c == '_')
+      word += c;
+    else
+      finish(), out += c;
+  finish();
+  return out;
+}
+
+void add_determined(FitResult& result, const Solution& solution, const ModelInfo& info, std::size_t first_channel) {
+  for (const Combination& found : solution.determined) {
+    const ModelTerm& term = info.terms[found.term];
+    const PeakName& peak = term.model->peak;
+    Determined next;
+    next.expression = in_names_of(info, term, peak.expression);
+    next.unit = peak.unit;
+    next.channel = first_channel + found.channel;
+    next.value = peak.scale * found.estimate.value;
+    if (found.estimate.sigma) next.sigma = peak.scale * *found.estimate.sigma;
+    next.low = peak.scale * *found.estimate.low, next.high = peak.scale * *found.estimate.high;
+    result.determined.push_back(next);
+  }
+}
+
+/// Covariances of solutions, in the order of the result's parameters, as correlations.
+std::vector<std::vector<double>> correlation(const std::vector<Solution>& solutions, const ModelKernel& kernel) {
+  struct Place {
+    std::size_t solution, row;
+  };
+  std::vector<Place> places;
+  for (std::size_t s = 0; s < solutions.size(); ++s)
+    for (std::size_t row = 0; row < solutions[s].linear.size() * kernel.linear; ++row) places.push_back({s, row});
+  for (std::size_t s = 0; s < solutions.size(); ++s)
+    for (std::size_t j = 0; j < kernel.nonlinear; ++j) places.push_back({s, solutions[s].linear.size() * kernel.linear + j});
+  std::vector<std::vector<double>> out(places.size(), std::vector<double>(places.size(), 0.0));
+  for (std::size_t a = 0; a < places.size(); ++a)
+    for (std::size_t b = 0; b < places.size(); ++b) {
+      const Matrix &of_a = solutions[places[a].solution].covariance, &of_b = solutions[places[b].solution].covariance;
+      const double variances = of_a(places[a].row, places[a].row) * of_b(places[b].row, places[b].row);
+      const double together = places[a].solution == places[b].solution ? of_a(places[a].row, places[b].row) : 0;
+      out[a][b] = variances > 0 ? together / std::sqrt(variances) : std::numeric_limits<double>::quiet_NaN();
+    }
+  return out;
+}
+
 /// Solutions in channel order: one for all, or one per channel; the weighting stands in the result already.
 void assemble(FitResult& result, const std::vector<Solution>& solutions, const ModelKernel& kernel) {
   const auto& parameters = kernel.info->parameters;
@@ -162,6 +223,9 @@ void assemble(FitResult& result, const std::vector<Solution>& solutions, const M
         result.parameters.push_back(fitted(parameters[k], solution.linear_estimate[c][k], channel));
       covariance.push_back(solution.covariance_of(c));
     }
+    add_determined(result, solution, *kernel.info, own.value_or(0));
+    result.likelihood.log_likelihood += solution.log_likelihood;
+    result.likelihood.free_parameters += static_cast<std::size_t>(solution.free_parameters);
     signal_to_noise2 += solution.signal_to_noise2;
     count += solution.count;
     chi2 += solution.chi2;
@@ -172,12 +236,24 @@ void assemble(FitResult& result, const std::vector<Solution>& solutions, const M
     for (std::size_t j = 0; j < kernel.nonlinear; ++j)
       result.parameters.push_back(fitted(parameters[kernel.linear + j], solutions[k].nonlinear_estimate[j],
                                          solutions.size() > 1 ? std::optional(k) : std::nullopt));
+  result.correlation = correlation(solutions, kernel);
+  result.likelihood.n = count;
   if (absolute && dof >= 1) result.errors.chi2_per_dof = chi2 / dof;
   result.checks = {energy_bound(result, kernel, covariance), at_bound(result), adequacy(chi2, dof, signal_to_noise2, count, absolute),
-                   second_minimum(result, *kernel.info, budget, solutions.front().cost)};
+                   second_minimum(result, *kernel.info, budget, solutions.front().cost), identifiability(result)};
 }
 
 }  // namespace
+
+double Likelihood::aicc() const noexcept {
+  const double k = static_cast<double>(free_parameters), left = static_cast<double>(n) - k - 1;
+  if (!(left > 0)) return std::numeric_limits<double>::infinity();
+  return 2 * k - 2 * log_likelihood + 2 * k * (k + 1) / left;
+}
+
+double Likelihood::bic() const noexcept {
+  return static_cast<double>(free_parameters) * std::log(static_cast<double>(n)) - 2 * log_likelihood;
+}
 
 const char* name(Metric metric) noexcept {
   for (const auto& [value, text] : metric_names)

@@ -66,6 +66,28 @@ struct OtherMinimum {
   double cost = 0, cost_ratio = 0;          ///< cost over the best cost
 };
 
+/// A combination of parameters that the data determine where they do not determine each of them.
+struct Determined {
+  std::string expression;  ///< in the names of the parameters: `rho_s (s+2)`; `lobe peak` where the model has no name for it
+  std::string unit;        ///< `1` or `1/sr`
+  std::size_t channel = 0;
+  double value = 0;
+  std::optional<double> sigma;
+  double low = 0, high = 0;  ///< of its profile interval
+};
+
+/// How likely the data are under the fitted model, of normal residuals: for the choice of a model on the same data, metric and weights.
+struct Likelihood {
+  double log_likelihood = 0;
+  std::size_t free_parameters = 0;  ///< k; of unweighted residuals their variance is one
+  std::size_t n = 0;                ///< values of all channels used
+
+  /// Akaike's criterion with the correction for small samples (Hurvich and Tsai 1989); infinite without enough values.
+  double aicc() const noexcept;
+  /// Schwarz's criterion (1978).
+  double bic() const noexcept;
+};
+
 /// Root mean squares of the residuals of every metric (unweighted), and chi² per degree of freedom where the data carry u.
 struct FitErrors {
   double linear = 0, linear_cos = 0, log = 0, log1p = 0, cbrt = 0;
@@ -82,11 +104,15 @@ struct FitResult {
   /// Values per channel in table order, ready for AnalyticBrdf.
   std::vector<std::vector<double>> values;
   FitErrors errors;
+  /// Of `parameters` in their order; NaN in the rows and columns of a parameter without a sigma.
+  std::vector<std::vector<double>> correlation;
+  std::vector<Determined> determined;
+  Likelihood likelihood;
   Weighting weighting;             ///< where the weights came from, and the outliers
   std::size_t n_observations = 0;  ///< samples used
   std::size_t n_masked = 0;        ///< cells of the observations that are no measurement, and f <= 0 under `log`
   std::vector<OtherMinimum> other_minima;
-  std::vector<Check> checks;  ///< energy_bound, at_bound, adequacy, second_minimum
+  std::vector<Check> checks;  ///< energy_bound, at_bound, adequacy, second_minimum, identifiability
   double fit_s = 0;
 };
 

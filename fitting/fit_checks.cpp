@@ -124,4 +124,34 @@ Check second_minimum(const FitResult& result, const ModelInfo& model, double bud
   return check;
 }
 
+Check identifiability(const FitResult& result) {
+  Check check;
+  check.id = "identifiability";
+  check.unit = std::string("1");
+  check.threshold = 0;
+  std::string names;
+  std::size_t count = 0;
+  for (const FittedParameter& parameter : result.parameters) {
+    if (parameter.kind == IntervalKind::fixed) continue;
+    ++check.n;
+    if (parameter.kind == IntervalKind::interval) continue;
+    ++count;
+    names += fmt::format("{}{}{}", names.empty() ? "" : ", ", parameter.name,
+                         parameter.channel && result.channels.size() > 1 ? " of " + result.channels[*parameter.channel].name : "");
+  }
+  check.effect = static_cast<double>(count);
+  check.verdict = count == 0 ? Verdict::pass : Verdict::warn;
+  if (count == 0) {
+    check.detail = "the data limit every parameter on both sides";
+    return check;
+  }
+  std::string instead;
+  for (const Determined& found : result.determined)
+    instead +=
+        fmt::format("{}{}{} = {:.5g} [{:.5g}, {:.5g}]", instead.empty() ? "; determined is " : ", ", found.expression,
+                    result.channels.size() > 1 ? " of " + result.channels[found.channel].name : "", found.value, found.low, found.high);
+  check.detail = fmt::format("not identifiable: {}{}", names, instead);
+  return check;
+}
+
 }  // namespace gonio::fitting

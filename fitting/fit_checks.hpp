@@ -19,4 +19,7 @@ Check adequacy(double chi2, double dof, double signal_to_noise2, std::size_t n, 
 /// second_minimum: another local minimum of the profile that the data hardly tell from the best. The effect is its cost over the best.
 Check second_minimum(const FitResult& result, const ModelInfo& model, double budget, double best_cost);
 
+/// identifiability: parameters that the data do not limit on both sides, and what they determine instead. The effect is their number.
+Check identifiability(const FitResult& result);
+
 }  // namespace gonio::fitting

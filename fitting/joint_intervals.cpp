@@ -15,6 +15,7 @@ constexpr double end_tolerance = 1e-3;    // of √budget: a thousandth of the h
 constexpr double path_tolerance = 1e-4;   // of the budget: how well the others are minimised along the path
 constexpr double first_part = 0.02;       // of an axis, or of a value: the first step where there is no covariance
 constexpr double most_growth = 4;         // of a step outwards
+constexpr double most_slope = 0.01;       // of the budget per unit of an axis, at an end of the search
 constexpr int most_steps = 60;
 
 /// A parameter and the least cost for each of its values.
@@ -31,11 +32,25 @@ class Path {
   }
   Minimum at(double value, std::vector<double> z, double tolerance, int threads) const {
     DescentOptions options{axis_, tolerance, most_steps, threads};
-    if (axis_) {
-      z[*axis_] = value;
-      return descend(profile_, space_, z, options);
+    if (axis_) z[*axis_] = value;
+    Minimum found = axis_ ? descend(profile_, space_, z, options) : descend(holding(value), space_, z, options);
+    // Beyond the order of equal terms the same set lies once more.
+    if (!space_.ordered(found.point.theta)) found.point.cost = infinity;
+    return found;
+  }
+  /// Whether the cost there would fall further if the search did not end: then it is the search that limits the parameter, not the data.
+  bool limited_by_search(double value, const Minimum& at, double budget, int threads) const {
+    std::vector<double> normal, gradient;
+    linearise(profile_.terms(), space_, axis_ ? profile_.limits() : holding(value).limits(), at.point.linear(), at.point.theta, nullptr,
+              threads)
+        .reduced(normal, gradient);
+    for (std::size_t a = 0; a < gradient.size(); ++a) {
+      const SearchAxis& axis = space_.axes()[a];
+      const double slope = 2 * gradient[a] * axis.slope(at.point.theta[axis.parameter]);
+      if (axis_ == a) continue;
+      if ((at.z[a] <= axis.low && slope > most_slope * budget) || (at.z[a] >= axis.high && -slope > most_slope * budget)) return true;
     }
-    return descend(profile_.holding(parameter_ / places_.linear, parameter_ % places_.linear, value), space_, z, options);
+    return false;
   }
   double low_limit() const {
     if (axis_) return space_.axes()[*axis_].low;
@@ -68,6 +83,7 @@ class Path {
   const SearchSpace& space() const { return space_; }
 
  private:
+  Profile holding(double value) const { return profile_.holding(parameter_ / places_.linear, parameter_ % places_.linear, value); }
   double slope(std::size_t parameter, const std::vector<double>& theta) const {
     for (const SearchAxis& axis : space_.axes())
       if (places_.of_nonlinear(axis.parameter) == parameter) return axis.slope(theta[axis.parameter]);
@@ -115,7 +131,8 @@ double end_of(const Path& path, const Minimum& start, const Budget& budget, doub
     if (at_limit) next = limit;
     const Minimum found = path.at(next, moved(path.space(), inside.z, direction, next - inside.value), tolerance, threads);
     Point point{next, budget.excess(found.point.cost), found.z};
-    if (std::abs(point.excess) <= end_tolerance * std::sqrt(budget.size) && !at_limit) return next;
+    if (std::abs(point.excess) <= end_tolerance * std::sqrt(budget.size) && !at_limit)
+      return path.limited_by_search(next, found, budget.size, threads) ? open : next;
     if (point.excess > 0) {
       outside = std::move(point);
       break;
@@ -140,7 +157,8 @@ double end_of(const Path& path, const Minimum& start, const Budget& budget, doub
     for (std::size_t a = 0; a < z.size(); ++a) z[a] += part * (outside->z[a] - inside.z[a]);
     const Minimum found = path.at(next, z, tolerance, threads);
     Point point{next, budget.excess(found.point.cost), found.z};
-    if (std::abs(point.excess) <= end_tolerance * std::sqrt(budget.size) || std::abs(width) <= 1e-9 * (1e-3 + std::abs(next))) return next;
+    if (std::abs(point.excess) <= end_tolerance * std::sqrt(budget.size) || std::abs(width) <= 1e-9 * (1e-3 + std::abs(next)))
+      return path.limited_by_search(next, found, budget.size, threads) ? open : next;
     if (point.excess < 0) {
       weight = moved_inside ? weight * 0.5 : 1;
       moved_inside = true;

@@ -24,6 +24,12 @@ struct OtherSolution {
   double cost = 0;
 };
 
+/// The value of a lobe in its peak at normal incidence [1/sr] (determined.hpp).
+struct Combination {
+  std::size_t channel = 0, term = 0;
+  Estimate estimate;
+};
+
 /// Channels that share the nonlinear parameters, fitted together.
 struct Solution {
   bool converged = false;
@@ -31,6 +37,8 @@ struct Solution {
   std::vector<std::vector<double>> linear;  ///< [channel][k]
   std::vector<double> theta;                ///< every nonlinear parameter
   double cost = 0, dof = 0;
+  double free_parameters = 0;  ///< the variance of unweighted residuals included
+  double log_likelihood = 0;
   /// χ² with its degrees of freedom where the weights do not come from the residuals. With weights from the scatter inside rows or among
   /// repeats (Terms::pure_error) what is constant inside rows is in neither.
   double chi2 = 0, chi2_dof = 0;
@@ -40,6 +48,7 @@ struct Solution {
   std::vector<OtherSolution> others;
   std::vector<std::vector<Estimate>> linear_estimate;  ///< [channel][k]
   std::vector<Estimate> nonlinear_estimate;
+  std::vector<Combination> determined;
   /// Of all parameters, the linear ones channel by channel, then the nonlinear ones; correlated components included. A parameter without
   /// a sigma has NaN there.
   Matrix covariance;

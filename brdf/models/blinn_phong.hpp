@@ -14,6 +14,8 @@ struct BlinnPhong : HalfVectorLobe<BlinnPhong> {
   static constexpr std::string_view citation =
       "J. F. Blinn, Models of Light Reflection for Computer Synthesized Pictures, SIGGRAPH 1977; (s+8)/(8 pi) as in T. Akenine-Moeller, E. "
       "Haines, N. Hoffman, Real-Time Rendering, 3rd ed., 2008";
+  static constexpr PeakName peak{"rho_s (s+8)", "1", 8 * std::numbers::pi};
+
   template <class T>
   static T norm(const T& s) {
     return blinn_phong_norm(s);

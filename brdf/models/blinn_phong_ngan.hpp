@@ -11,6 +11,8 @@ namespace gonio {
 struct BlinnPhongNgan : HalfVectorLobe<BlinnPhongNgan> {
   static constexpr std::string_view name = "blinn-phong-ngan";
   static constexpr std::string_view citation = "A. Ngan, F. Durand, W. Matusik, Experimental Analysis of BRDF Models, EGSR 2005";
+  static constexpr PeakName peak{"rho_s (s+2)", "1", 2 * std::numbers::pi};
+
   template <class T>
   static T norm(const T& s) {
     return phong_norm(s);

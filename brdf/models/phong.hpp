@@ -14,6 +14,8 @@ struct Phong : MirrorLobe<Phong> {
       "E. P. Lafortune, Y. D. Willems, Using the Modified Phong Reflectance Model for Physically Based Rendering, report CW197, 1994";
   static constexpr auto parameters = MirrorLobe::parameters_with("1");
 
+  static constexpr PeakName peak{"rho_s (s+2)", "1", 2 * std::numbers::pi};
+
   template <class T>
   static T norm(const T& s) {
     return phong_norm(s);

@@ -14,6 +14,8 @@ struct Phong1975 : MirrorLobe<Phong1975> {
   static constexpr std::string_view citation = "B. T. Phong, Illumination for Computer Generated Pictures, CACM 18(6), 1975";
   static constexpr auto parameters = MirrorLobe::parameters_with("1/sr");
 
+  static constexpr PeakName peak{"rho_s", "1/sr", 1};
+
   template <class T>
   static T norm(const T&) {
     return T(1.0);
