@@ -38,9 +38,45 @@ std::string interval_text(const fitting::FittedParameter& p) {
   return {};
 }
 
-Json minima_document(const std::vector<fitting::OtherMinimum>& others) {
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json correlation_document(const std::vector<std::vector<double>>& correlation) {
+  Json rows = Json::array();
+  for (const auto& row : correlation) {
+    Json values = Json::array();
+    for (const double value : row) values.push_back(finite_or_null(value));
+    rows.push_back(values);
+  }
+  return rows;
+}
+
+Json determined_document(const fitting::FitResult& result) {
+  Json out = Json::array();
+  for (const auto& found : result.determined) {
+    Json interval = Json::array();
+    interval.push_back(found.low);
+    interval.push_back(found.high);
+    out.push_back(Json::object({{"expression", found.expression},
+                                {"unit", found.unit},
+                                {"channel", result.channels[found.channel].name},
+                                {"value", found.value},
+                                {"sigma", or_null(found.sigma)},
+                                {"interval", interval}}));
+  }
+  return out;
+}
+
+Json likelihood_document(const fitting::Likelihood& likelihood) {
+  return Json::object({{"log_likelihood", finite_or_null(likelihood.log_likelihood)},
+                       {"free_parameters", static_cast<std::int64_t>(likelihood.free_parameters)},
+                       {"n", static_cast<std::int64_t>(likelihood.n)},
+                       {"aicc", finite_or_null(likelihood.aicc())},
+                       {"bic", finite_or_null(likelihood.bic())}});
+}
+
+Json minima_document(const fitting::FitResult& result) {
   Json minima = Json::array();
-  for (const auto& minimum : others) {
+  for (const auto& minimum : result.other_minima) {
     Json nonlinear = Json::array(), linear = Json::array();
     for (const double value : minimum.nonlinear) nonlinear.push_back(value);
     for (const auto& set : minimum.linear) {
@@ -48,8 +84,11 @@ Json minima_document(const std::vector<fitting::OtherMinimum>& others) {
       for (const double value : set) values.push_back(value);
       linear.push_back(values);
     }
-    minima.push_back(
-        Json::object({{"nonlinear", nonlinear}, {"linear", linear}, {"cost", minimum.cost}, {"cost_ratio", minimum.cost_ratio}}));
+    minima.push_back(Json::object({{"channel", minimum.channel ? Json(result.channels[*minimum.channel].name) : Json()},
+                                   {"nonlinear", nonlinear},
+                                   {"linear", linear},
+                                   {"cost", minimum.cost},
+                                   {"cost_ratio", minimum.cost_ratio}}));
   }
   return minima;
 }
@@ -128,6 +167,9 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
   document.set("metric", name(result.metric));
   if (!options.is_null()) document.set("options", std::move(options));
   document.set("parameters", parameters_document(result));
+  document.set("correlation", correlation_document(result.correlation));
+  document.set("determined", determined_document(result));
+  if (result.likelihood.n > 0) document.set("likelihood", likelihood_document(result.likelihood));
   document.set("errors", errors_document(result.errors));
   document.set("weighting", weighting_document(result));
   document.set("n_observations", static_cast<std::int64_t>(result.n_observations));
@@ -135,7 +177,7 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
   const std::size_t in_fit = result.n_masked;
   counts.set("not_fitted", static_cast<std::int64_t>(in_fit));
   document.set("n_masked", counts);
-  document.set("other_minima", minima_document(result.other_minima));
+  document.set("other_minima", minima_document(result));
   document.set("timings_s", Json::object({{"read", timings.read_s}, {"fit", timings.fit_s}, {"total", timings.total_s}}));
   document.set("checks", checks_array(result.checks));
   return document;
