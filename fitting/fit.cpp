@@ -245,13 +245,13 @@ void assemble(FitResult& result, const std::vector<Solution>& solutions, const M
 
 }  // namespace
 
-double Likelihood::aicc() const noexcept {
+double FitLikelihood::aicc() const noexcept {
   const double k = static_cast<double>(free_parameters), left = static_cast<double>(n) - k - 1;
   if (!(left > 0)) return std::numeric_limits<double>::infinity();
   return 2 * k - 2 * log_likelihood + 2 * k * (k + 1) / left;
 }
 
-double Likelihood::bic() const noexcept {
+double FitLikelihood::bic() const noexcept {
   return static_cast<double>(free_parameters) * std::log(static_cast<double>(n)) - 2 * log_likelihood;
 }
 

@@ -77,7 +77,7 @@ struct Determined {
 };
 
 /// How likely the data are under the fitted model, of normal residuals: for the choice of a model on the same data, metric and weights.
-struct Likelihood {
+struct FitLikelihood {
   double log_likelihood = 0;
   std::size_t free_parameters = 0;  ///< k; of unweighted residuals their variance is one
   std::size_t n = 0;                ///< values of all channels used
@@ -107,7 +107,7 @@ struct FitResult {
   /// Of `parameters` in their order; NaN in the rows and columns of a parameter without a sigma.
   std::vector<std::vector<double>> correlation;
   std::vector<Determined> determined;
-  Likelihood likelihood;
+  FitLikelihood likelihood;
   Weighting weighting;             ///< where the weights came from, and the outliers
   std::size_t n_observations = 0;  ///< samples used
   std::size_t n_masked = 0;        ///< cells of the observations that are no measurement, and f <= 0 under `log`

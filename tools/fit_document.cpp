@@ -66,7 +66,7 @@ Json determined_document(const fitting::FitResult& result) {
   return out;
 }
 
-Json likelihood_document(const fitting::Likelihood& likelihood) {
+Json likelihood_document(const fitting::FitLikelihood& likelihood) {
   return Json::object({{"log_likelihood", finite_or_null(likelihood.log_likelihood)},
                        {"free_parameters", static_cast<std::int64_t>(likelihood.free_parameters)},
                        {"n", static_cast<std::int64_t>(likelihood.n)},
