@@ -8,16 +8,23 @@
 #include "brdf/models/blinn_phong.hpp"
 #include "brdf/models/blinn_phong_exact.hpp"
 #include "brdf/models/blinn_phong_ngan.hpp"
+#include "brdf/models/cook_torrance.hpp"
 #include "brdf/models/ggx.hpp"
 #include "brdf/models/lambert.hpp"
 #include "brdf/models/phong.hpp"
 #include "brdf/models/phong_1975.hpp"
+#include "brdf/models/sgd.hpp"
+#include "brdf/models/ward.hpp"
+#include "brdf/models/ward_anisotropic.hpp"
+#include "brdf/models/ward_duer_gm.hpp"
+#include "brdf/models/ward_duer_gm_anisotropic.hpp"
 
 namespace gonio {
 
 using Models = std::tuple<Lambert,                                                        //
                           Phong1975, Phong, BlinnPhong, BlinnPhongExact, BlinnPhongNgan,  //
-                          Ggx>;
+                          Ward, WardAnisotropic, WardDuerGm, WardDuerGmAnisotropic, CookTorrance,  //
+                          Ggx, Sgd>;
 
 /// Calls `f(Model{})` for every model of the list, in order.
 template <class F>

@@ -29,7 +29,7 @@ struct Ggx {
     using Real = Plain<T>;
     const T value = g.has_half_vector()
                         ? lobe(static_cast<Real>(g.tan2_h), static_cast<Real>(g.cos_i), static_cast<Real>(g.cos_o), nonlinear[0])
-                        : T(Real(0));
+                        : T(0);
     schlick_basis(g, value, out);
   }
 };

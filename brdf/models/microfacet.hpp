@@ -15,6 +15,18 @@ namespace gonio {
 template <class T>
 using Plain = std::conditional_t<std::is_same_v<T, float>, float, double>;
 
+/// Cosines of both directions together below this, 1e-8, count as 1e-8: two directions at 89.994°, or one much nearer to the surface.
+/// Models that divide by cos θi cos θo have no limit at the horizon; they stay finite and keep a definite value there.
+inline constexpr double least_cosine_product = 1e-8;
+
+/// exp(-x), 0 beyond what T still holds as a normal number.
+template <class T>
+T decay(const T& x) {
+  using std::exp;
+  if (x > Plain<T>(std::is_same_v<T, float> ? 87 : 700)) return T(0);
+  return exp(-x);
+}
+
 /// (1 - cos theta_d)^5 of Schlick's approximation to the Fresnel reflectance, F = F0 + (F90 - F0)(1 - cos theta_d)^5
 /// (C. Schlick, An Inexpensive BRDF Model for Physically-Based Rendering, CGF 13(3), 1994, Eq. 15).
 template <class Real>

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The GGX microfacet surface with separable shadowing and Schlick's Fresnel reflectance.
+#pragma once
+
+#include "brdf/models/ggx_terms.hpp"
+
+namespace gonio {
+
+/// As `ggx`, with G = G1(θi) G1(θo): masking and shadowing taken as independent, which is darker at grazing.
+struct GgxSeparable {
+  static constexpr std::string_view name = "ggx-separable";
+  static constexpr std::string_view citation =
+      "B. Walter, S. R. Marschner, H. Li, K. E. Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007; C. Schlick, An "
+      "Inexpensive BRDF Model for Physically-Based Rendering, CGF 13(3), 1994";
+  static constexpr auto parameters = table(schlick_parameters, ggx_roughness);
+  static constexpr DependsOn depends_on = DependsOn::all;
+  static constexpr ModelProperties properties{true, true, true};
+
+  template <class T>
+  static void basis(const LobeGeometry& g, const T* nonlinear, T* out) {
+    schlick_basis(g, ggx_separable_lobe(g, nonlinear[0]), out);
+  }
+};
+
+}  // namespace gonio

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The GGX microfacet surface of a dielectric, separable shadowing.
+#pragma once
+
+#include "brdf/models/ggx_terms.hpp"
+
+namespace gonio {
+
+/// As `ggx-fresnel`, with G = G1(θi) G1(θo): the surface of the paper.
+struct GgxSeparableFresnel {
+  static constexpr std::string_view name = "ggx-separable-fresnel";
+  static constexpr std::string_view citation =
+      "B. Walter, S. R. Marschner, H. Li, K. E. Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007";
+  static constexpr auto parameters = table(one_lobe_parameters, std::array{ggx_roughness[0], refractive_index});
+  static constexpr DependsOn depends_on = DependsOn::all;
+  static constexpr ModelProperties properties{true, true, true};
+
+  template <class T>
+  static void basis(const LobeGeometry& g, const T* nonlinear, T* out) {
+    one_lobe_basis(ggx_separable_lobe(g, nonlinear[0]) * dielectric_fresnel(static_cast<Plain<T>>(g.cos_d), nonlinear[1]), out);
+  }
+};
+
+}  // namespace gonio
