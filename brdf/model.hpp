@@ -33,7 +33,7 @@ enum class DependsOn { nothing, theta_h, psi, all };
 struct ModelProperties {
   bool reciprocal;      ///< f(wi, wo) = f(wo, wi) exactly
   bool isotropic;       ///< depends on phi_o - phi_i only
-  bool bilateral;       ///< symmetric under phi -> -phi
+  bool bilateral;       ///< symmetric under phi_o - phi_i -> phi_i - phi_o: mirrored at every plane of incidence
   bool bounded = true;  ///< the directional albedo stays finite up to grazing incidence
 };
 
@@ -50,8 +50,8 @@ struct PeakName {
 /// diffuse part (1/π unless the model is one of diffuse reflection), so that sums of models share it. `basis<T>` takes the geometry in
 /// double and the nonlinear parameters in T (double or an automatic-differentiation type).
 ///
-/// Optional: `albedo(theta, nonlinear, out)`, the directional albedo of each basis function in closed form, and with it
-/// `albedo_bound(nonlinear, out)`, its supremum over all incidences, reached at the normal by every basis function, so that energy is
+/// Optional: `albedo(theta, nonlinear, out)`, the directional albedo of each basis function in closed form, and where its supremum over
+/// all incidences is reached at the normal by every basis function also `albedo_bound(nonlinear, out)`, that supremum, so that energy is
 /// conserved iff Σ linear_k · bound_k <= 1. Models without them are integrated numerically. Also optional: `peak`, a PeakName.
 template <class M>
 concept AnalyticModel = requires(const LobeGeometry& g, const double* nonlinear, double* out) {
@@ -64,7 +64,7 @@ concept AnalyticModel = requires(const LobeGeometry& g, const double* nonlinear,
   requires M::parameters[0].name == "rho_d" && M::parameters[0].linear;
 };
 
-/// A model that knows its directional albedo in closed form.
+/// A model that knows its directional albedo in closed form, largest at the normal.
 template <class M>
 concept ClosedAlbedo = AnalyticModel<M> && requires(const double* nonlinear, double* out, Angle theta) {
   M::albedo(theta, nonlinear, out);

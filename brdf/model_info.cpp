@@ -22,7 +22,7 @@ namespace {
 struct Kernel {
   void (*basis)(std::span<const LobeGeometry>, const double*, double*, std::size_t) = nullptr;
   void (*albedo)(Angle, const double*, double*) = nullptr;  ///< null: no closed form
-  void (*albedo_bound)(const double*, double*) = nullptr;
+  void (*albedo_bound)(const double*, double*) = nullptr;   ///< null: none, or not at the normal
 };
 
 template <AnalyticModel M>
@@ -54,7 +54,8 @@ const List& list() {
       if constexpr (requires { M::peak; }) info.peak = M::peak;
       all.infos.push_back(std::move(info));
       Kernel kernel{&basis_of<M>, nullptr, nullptr};
-      if constexpr (ClosedAlbedo<M>) kernel.albedo = &M::albedo, kernel.albedo_bound = &M::albedo_bound;
+      if constexpr (requires { &M::albedo; }) kernel.albedo = &M::albedo;
+      if constexpr (ClosedAlbedo<M>) kernel.albedo_bound = &M::albedo_bound;
       all.kernels.push_back(kernel);
     });
     // The elements stay where they are when the list is moved.

@@ -32,7 +32,7 @@ struct ModelInfo {
   std::size_t linear_count = 0;
   DependsOn depends_on = DependsOn::all;
   ModelProperties properties{};
-  bool closed_albedo = false;             ///< of every term
+  bool closed_albedo = false;             ///< of every term, and largest at the normal
   PeakName peak{"lobe peak", "1/sr", 1};  ///< of a model of the list; of a sum look at its terms
   std::vector<ModelTerm> terms;
 

@@ -5,16 +5,50 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace gonio {
 namespace {
 
+constexpr double pi = std::numbers::pi;
 constexpr double innermost = 1e-7;  // rad: nothing that a gonio-reflectometer sees is narrower
-constexpr double growth = 1.5;      // of the panels
-constexpr std::size_t azimuths = 128;
+constexpr double growth = 2;        // of the panels along theta_h
+constexpr double widest_theta = 0.2;
+/// Widest panel along phi_h. An anisotropic lobe turns its width within a part of the circle.
+constexpr double widest_isotropic = 0.8, widest_anisotropic = 0.2;
+constexpr double least_cosine = 1e-3;  // of the incidence, where the panels along phi_h stop to narrow
 /// Gauss-Legendre nodes and weights with four points on [-1, 1].
 constexpr std::array<double, 4> nodes{-0.86113631159405258, -0.33998104358485626, 0.33998104358485626, 0.86113631159405258};
 constexpr std::array<double, 4> weights{0.34785484513745386, 0.65214515486254614, 0.65214515486254614, 0.34785484513745386};
+
+struct Node {
+  double at, weight;
+};
+
+/// Panels over [0, end] that start with `first` and double, none wider than `widest`.
+std::vector<Node> doubling_panels(double end, double first, double widest) {
+  std::vector<Node> out;
+  for (double from = 0, width = first; from < end;) {
+    const double to = end - from < 1.25 * width ? end : from + width;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      out.push_back({0.5 * (from + to) + 0.5 * (to - from) * nodes[n], 0.5 * (to - from) * weights[n]});
+    from = to;
+    width = std::min(widest, from * (growth - 1));
+  }
+  return out;
+}
+
+/// Azimuths of the half vector against the plane of incidence: half the circle stands for all of it if the model is isotropic.
+std::vector<Node> azimuths(double cos_i, bool isotropic) {
+  const double widest = isotropic ? widest_isotropic : widest_anisotropic;
+  std::vector<Node> out;
+  for (const Node& node : doubling_panels(pi / 2, std::min(widest, std::max(cos_i, least_cosine)), widest))
+    for (const double side : {-1.0, 1.0}) {
+      out.push_back({pi / 2 + side * node.at, isotropic ? 2 * node.weight : node.weight});
+      if (!isotropic) out.push_back({-pi / 2 + side * node.at, node.weight});
+    }
+  return out;
+}
 
 }  // namespace
 
@@ -22,27 +56,19 @@ void numeric_albedo(const ModelInfo& model, Angle theta_i, Angle phi_i, const do
   const std::size_t count = model.linear_count;
   std::fill(out, out + count, 0.0);
   const Direction wi = Direction::spherical(theta_i, phi_i);
-  // An orthonormal frame about the mirror direction r: e1 in the plane of incidence, e2 across it.
-  const std::array<double, 3> r{-wi.x(), -wi.y(), wi.z()};
-  const std::array<double, 3> e2{-phi_i.sin(), phi_i.cos(), 0};
-  const std::array<double, 3> e1{e2[1] * r[2] - e2[2] * r[1], e2[2] * r[0] - e2[0] * r[2], e2[0] * r[1] - e2[1] * r[0]};
+  const double si = theta_i.sin(), ci = theta_i.cos();
   std::vector<LobeGeometry> geometry;
   std::vector<double> weight;
-  for (std::size_t j = 0; j < azimuths; ++j) {
-    const double chi = 2 * std::numbers::pi * (static_cast<double>(j) + 0.5) / static_cast<double>(azimuths);
-    // The height above the surface along this half circle is A sin(psi) + B cos(psi), B >= 0: positive up to the horizon, then not again.
-    const double rise = std::cos(chi) * e1[2];
-    const double horizon = rise > 0 ? std::numbers::pi - std::atan2(r[2], rise) : std::atan2(r[2], -rise);
-    for (double from = 0, to = innermost; from < horizon; from = to, to *= growth) {
-      const double end = std::min(to, horizon);
-      for (std::size_t n = 0; n < nodes.size(); ++n) {
-        const double psi = 0.5 * (from + end) + 0.5 * (end - from) * nodes[n];
-        const double a = std::sin(psi) * std::cos(chi), b = std::sin(psi) * std::sin(chi), c = std::cos(psi);
-        const double z = a * e1[2] + b * e2[2] + c * r[2];
-        if (!(z > 0)) continue;
-        geometry.push_back(lobe_geometry(wi, Direction::trusted(a * e1[0] + b * e2[0] + c * r[0], a * e1[1] + b * e2[1] + c * r[1], z)));
-        weight.push_back(0.5 * (end - from) * weights[n] * std::sin(psi) * 2 * std::numbers::pi / static_cast<double>(azimuths) * z);
-      }
+  for (const Node& phi : azimuths(ci, model.properties.isotropic && model.properties.bilateral)) {
+    const double along = si * std::cos(phi.at), cos_phi = std::cos(phi.at + phi_i.radians()), sin_phi = std::sin(phi.at + phi_i.radians());
+    // cos theta_o = along sin 2theta_h + ci cos 2theta_h is positive up to one theta_h.
+    const double horizon = 0.5 * (std::atan2(along, ci) + pi / 2);
+    for (const Node& theta : doubling_panels(horizon, std::min(innermost, horizon), widest_theta)) {
+      const double s = std::sin(theta.at), c = std::cos(theta.at);
+      const double cos_d = along * s + ci * c, z = 2 * cos_d * c - ci;
+      if (!(z > 0)) continue;
+      geometry.push_back(lobe_geometry(wi, Direction::trusted(2 * cos_d * s * cos_phi - wi.x(), 2 * cos_d * s * sin_phi - wi.y(), z)));
+      weight.push_back(phi.weight * theta.weight * s * 4 * cos_d * z);
     }
   }
   std::vector<double> columns(count * geometry.size());

@@ -9,9 +9,9 @@
 namespace gonio {
 
 /// f = ρd/π + A F(θd; n)/(1 + B |Dp|²)^C: Dp = β - β0 the outgoing direction against the mirror direction, both projected on the surface
-/// (Eq. 10), F the Fresnel reflectance at cos θd = √(1 - |Ip - Op|²/4) of the projected directions (Eqs. 12 to 14). Written in Rayleigh-Rice
-/// manner, without shadowing; finite everywhere. A in 1/sr is the peak for F = 1.
-/// Traps: cos θd is that of the mirror pair, not of the half vector. Far from the peak only A B^-C is determined.
+/// (Eq. 10), F the Fresnel reflectance at cos θd = √(1 - |Ip - Op|²/4) of the projected directions (Eqs. 12 to 14). Written in
+/// Rayleigh-Rice manner, without shadowing; finite everywhere. A in 1/sr is the peak for F = 1. Traps: cos θd is that of the mirror pair,
+/// not of the half vector. Far from the peak only A B^-C is determined.
 struct Abc {
   static constexpr std::string_view name = "abc";
   static constexpr std::string_view citation =

@@ -16,9 +16,9 @@ inline constexpr std::array<Parameter, 3> abc_nonlinear_parameters{
 /// (1 + B x)^-C, with B and C the first two nonlinear parameters.
 template <class T>
 T abc_falloff(double x, const T* nonlinear) {
-  using std::log;
+  using std::log1p;
   using Real = Plain<T>;
-  return decay<T>(nonlinear[1] * log(nonlinear[0] * static_cast<Real>(x) + Real(1)));
+  return decay<T>(nonlinear[1] * log1p(nonlinear[0] * static_cast<Real>(x)));
 }
 
 }  // namespace gonio

@@ -6,10 +6,9 @@
 
 namespace gonio {
 
-/// f = ρd/π + A/(B + |β - β0|^g), β and β0 the outgoing and the mirror direction projected on the surface. The peak is A/B, the slope of the
-/// log-log plot far from it -g, the shoulder at |β - β0| = B^{1/g}.
-/// Trap: usually without a diffuse part: fix rho_d = 0 to compare with tables of A, B and g. On data that do not reach the shoulder only
-/// A and g are determined and B has an upper bound.
+/// f = ρd/π + A/(B + |β - β0|^g), β and β0 the outgoing and the mirror direction projected on the surface. The peak is A/B, the slope of
+/// the log-log plot far from it -g, the shoulder at |β - β0| = B^{1/g}. Trap: usually without a diffuse part: fix rho_d = 0 to compare with
+/// tables of A, B and g. On data that do not reach the shoulder only A and g are determined and B has an upper bound.
 struct Abg {
   static constexpr std::string_view name = "abg";
   static constexpr std::string_view citation =

@@ -6,8 +6,8 @@
 
 namespace gonio {
 
-/// f = ρd/π + (n + 1)/(8π) cos^n θh / (cos θd max(cos θi, cos θo)) (F0 (1 - w) + F90 w), w = (1 - cos θd)^5 (Eq. 4 with nu = nv = n).
-/// Trap: the paper takes F90 = 1 and couples a diffuse part to 1 - F0 (its Eq. 5); here the diffuse part is Lambert's, so that the model
+/// f = ρd/π + (n + 1)/(8π) cos^n θh / (cos θd max(cos θi, cos θo)) (F0 (1 - w) + F90 w), w = (1 - cos θd)^5 (the paper's with nu = nv = n).
+/// Trap: the paper takes F90 = 1 and couples a diffuse part to 1 - F0; here the diffuse part is Lambert's, so that the model
 /// stays linear in ρd, F0 and F90.
 struct AshikhminShirley {
   static constexpr std::string_view name = "ashikhmin-shirley";

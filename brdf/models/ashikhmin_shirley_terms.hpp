@@ -14,8 +14,6 @@ constexpr Parameter ashikhmin_exponent(std::string_view name, double example) {
 }
 
 /// 1/(8π cos θd max(cos θi, cos θo)). No denominator vanishes where there is a half vector above the surface.
-inline double ashikhmin_factor(const LobeGeometry& g) {
-  return 1 / (8 * std::numbers::pi * g.cos_d * std::max(g.cos_i, g.cos_o));
-}
+inline double ashikhmin_factor(const LobeGeometry& g) { return 1 / (8 * std::numbers::pi * g.cos_d * std::max(g.cos_i, g.cos_o)); }
 
 }  // namespace gonio

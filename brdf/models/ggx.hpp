@@ -19,18 +19,9 @@ struct Ggx {
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true};
 
-  /// D G/(4 cos θi cos θo) [1/sr] from numbers alone: also for batches in float.
-  template <class T>
-  static T lobe(Plain<T> tan2_h, Plain<T> cos_i, Plain<T> cos_o, const T& alpha) {
-    return ggx_distribution(tan2_h, alpha) * ggx_visibility(cos_i, cos_o, alpha);
-  }
   template <class T>
   static void basis(const LobeGeometry& g, const T* nonlinear, T* out) {
-    using Real = Plain<T>;
-    const T value = g.has_half_vector()
-                        ? lobe(static_cast<Real>(g.tan2_h), static_cast<Real>(g.cos_i), static_cast<Real>(g.cos_o), nonlinear[0])
-                        : T(0);
-    schlick_basis(g, value, out);
+    schlick_basis(g, ggx_lobe(g, nonlinear[0]), out);
   }
 };
 

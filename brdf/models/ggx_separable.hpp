@@ -10,7 +10,8 @@ namespace gonio {
 struct GgxSeparable {
   static constexpr std::string_view name = "ggx-separable";
   static constexpr std::string_view citation =
-      "B. Walter, S. R. Marschner, H. Li, K. E. Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007; C. Schlick, An "
+      "B. Walter, S. R. Marschner, H. Li, K. E. Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007; C. Schlick, "
+      "An "
       "Inexpensive BRDF Model for Physically-Based Rendering, CGF 13(3), 1994";
   static constexpr auto parameters = table(schlick_parameters, ggx_roughness);
   static constexpr DependsOn depends_on = DependsOn::all;

@@ -43,4 +43,22 @@ T ggx_separable_visibility(Plain<T> ci, Plain<T> co, const T& alpha) {
   return Real(1) / ((sqrt(alpha2 * (1 - ci * ci) + ci * ci) + ci) * (sqrt(alpha2 * (1 - co * co) + co * co) + co));
 }
 
+/// D G/(4 cos θi cos θo) with height-correlated shadowing; 0 where both directions lie in the surface.
+template <class T>
+T ggx_lobe(const LobeGeometry& g, const T& alpha) {
+  using Real = Plain<T>;
+  if (!g.has_half_vector()) return T(0);
+  return ggx_distribution(static_cast<Real>(g.tan2_h), alpha) *
+         ggx_visibility(static_cast<Real>(g.cos_i), static_cast<Real>(g.cos_o), alpha);
+}
+
+/// The same with separable shadowing.
+template <class T>
+T ggx_separable_lobe(const LobeGeometry& g, const T& alpha) {
+  using Real = Plain<T>;
+  if (!g.has_half_vector()) return T(0);
+  return ggx_distribution(static_cast<Real>(g.tan2_h), alpha) *
+         ggx_separable_visibility(static_cast<Real>(g.cos_i), static_cast<Real>(g.cos_o), alpha);
+}
+
 }  // namespace gonio

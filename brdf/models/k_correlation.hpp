@@ -7,9 +7,9 @@
 namespace gonio {
 
 /// f = ρd/π + A cos θi cos θo/(1 + (B |β - β0|)²)^{(C + 1)/2}: Rayleigh-Rice scatter, 16π²/λ⁴ cos θi cos θo Q S(f), of the two-dimensional
-/// spectrum S = A'/(1 + (B' f)²)^{(C + 1)/2} at f = |β - β0|/λ, its polarisation factor Q taken as constant. A = 16π² Q A'/λ⁴ [1/sr] is the peak
-/// at the normal, B = B'/λ the correlation length in wavelengths times 2π, C + 1 the slope far from the shoulder |β - β0| = 1/B.
-/// Trap: usually without a diffuse part: fix rho_d = 0 to compare with tables. Valid for roughness far below the wavelength.
+/// spectrum S = A'/(1 + (B' f)²)^{(C + 1)/2} at f = |β - β0|/λ, its polarisation factor Q taken as constant. A = 16π² Q A'/λ⁴ [1/sr] is the
+/// peak at the normal, B = B'/λ the correlation length in wavelengths times 2π, C + 1 the slope far from the shoulder |β - β0| = 1/B. Trap:
+/// usually without a diffuse part: fix rho_d = 0 to compare with tables. Valid for roughness far below the wavelength.
 struct KCorrelation {
   static constexpr std::string_view name = "k-correlation";
   static constexpr std::string_view citation =
@@ -24,10 +24,10 @@ struct KCorrelation {
 
   template <class T>
   static void basis(const LobeGeometry& g, const T* nonlinear, T* out) {
-    using std::log;
+    using std::log1p;
     using Real = Plain<T>;
     const T x = nonlinear[0] * static_cast<Real>(g.beta_gap);
-    const T falloff = decay<T>(Real(0.5) * (nonlinear[1] + Real(1)) * log(x * x + Real(1)));
+    const T falloff = decay<T>(Real(0.5) * (nonlinear[1] + Real(1)) * log1p(x * x));
     one_lobe_basis(falloff * static_cast<Real>(g.cos_i * g.cos_o), out);
   }
 };

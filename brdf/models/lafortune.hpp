@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "brdf/blinn_phong_albedo.hpp"
 #include "brdf/models/microfacet.hpp"
 #include "brdf/phong_albedo.hpp"
 
@@ -12,8 +13,8 @@ namespace gonio {
 /// f = ρd/π + ρs 2 d^n/(|Cxy|^n + Cz^n), d = max(0, Cxy (xi xo + yi yo) + Cz zi zo), (-Cxy, Cz) = (cos δ, sin δ).
 /// Only the ratio of Cxy and Cz is a shape, their length a factor of the amplitude: published values turn into
 ///   δ = atan2(Cz, -Cxy),  ρs = amplitude · (|Cxy|^n + Cz^n)/2.
-/// So ρs [1/sr] is the mean of the two extreme peaks of the lobe, at the normal and at grazing. δ = 45° is `phong-1975` with s = n, δ > 45° a
-/// lobe lifted towards the normal, δ = 90° one about the normal (cos θi cos θo)^n, δ = 135° one about the light. Several lobes as sums:
+/// So ρs [1/sr] is the mean of the two extreme peaks of the lobe, at the normal and at grazing. δ = 45° is `phong-1975` with s = n, δ > 45°
+/// a lobe lifted towards the normal, δ = 90° one about the normal (cos θi cos θo)^n, δ = 135° one about the light. Several lobes as sums:
 /// `lafortune+lafortune`. Cz > 0 only.
 /// Trap: off-specular lobes (δ far from 45°) with a large n have one peak much higher than the other.
 struct Lafortune {
@@ -41,7 +42,8 @@ struct Lafortune {
     const double across = std::abs(minus_xy) * theta.sin(), up = z * theta.cos(), n = nonlinear[0];
     const double length = std::hypot(across, up);
     out[0] = 1;
-    out[1] = length > 0 ? decay(log_peaks(minus_xy, z, n) - n * std::log(length)) * phong_albedo(n, angle_of(across, up)) / phong_norm(n) : 0;
+    out[1] =
+        length > 0 ? decay(log_peaks(minus_xy, z, n) - n * std::log(length)) * phong_albedo(n, angle_of(across, up)) / phong_norm(n) : 0;
   }
 
  private:
@@ -55,12 +57,12 @@ struct Lafortune {
   /// ln((|a|^n + b^n)/2), smooth in both: the logarithm of the larger power plus what the smaller one adds.
   template <class T>
   static T log_peaks(const T& a, const T& b, const T& n) {
-    using std::exp;
     using std::log;
+    using std::log1p;
     using Real = Plain<T>;
     const T log_a2 = log(a * a + Real(1e-30)), log_b2 = log(b * b);  // 90° itself has no Cxy
     const T larger = log_a2 > log_b2 ? log_a2 : log_b2, smaller = log_a2 > log_b2 ? log_b2 : log_a2;
-    return Real(0.5) * n * larger + log((decay<T>(Real(0.5) * n * (larger - smaller)) + Real(1)) * Real(0.5));
+    return Real(0.5) * n * larger + log1p(decay<T>(Real(0.5) * n * (larger - smaller))) - Real(std::numbers::ln2);
   }
 };
 

@@ -48,6 +48,9 @@ T dielectric_fresnel(Plain<T> c, const T& n) {
   return Real(0.5) * perpendicular * perpendicular * (ratio * ratio + Real(1));
 }
 
+/// Refractive index of a dielectric. n = 1 has no reflection at all and is left out.
+inline constexpr Parameter refractive_index{"n", "1", 1.001, 100, false, 1.05, 10, Parameter::Axis::logarithmic, 1.5};
+
 /// Parameters of f = ρd/π + lobe · (F0 (1 - w) + F90 w) with w = `schlick_weight`: both reflectances are linear. A model adds its own
 /// nonlinear ones.
 inline constexpr std::array<Parameter, 3> schlick_parameters{{{"rho_d", "1", 0, 1e6, true, 0, 0, Parameter::Axis::logarithmic, 0.2},

@@ -17,8 +17,8 @@ namespace gonio {
 struct RetroPhong {
   static constexpr std::string_view name = "retro-phong";
   static constexpr std::string_view citation =
-      "E. P. F. Lafortune, S.-C. Foo, K. E. Torrance, D. P. Greenberg, Non-Linear Approximation of Reflectance Functions, SIGGRAPH 1997, "
-      "Sec. 4.2 (retro-reflection); normalised as the Phong lobe";
+      "E. P. F. Lafortune, S.-C. Foo, K. E. Torrance, D. P. Greenberg, Non-Linear Approximation of Reflectance Functions, SIGGRAPH 1997 "
+      "(retro-reflecting lobes); normalised as the Phong lobe";
   static constexpr std::array<Parameter, 3> parameters{
       {{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1", 0, 1e6, true}, {"s", "1", 0, 1e9, false, 1e-3, 1e9, Parameter::Axis::logarithmic, 40}}};
   static constexpr DependsOn depends_on = DependsOn::all;

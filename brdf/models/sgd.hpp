@@ -59,6 +59,7 @@ struct Sgd {
   template <class T>
   static T shadow(double cosine, const T* shape) {
     using std::exp;
+    using std::expm1;
     using std::log;
     using Real = Plain<T>;
     const T above = static_cast<Real>(std::acos(std::clamp(cosine, -1.0, 1.0))) - shape[3];
@@ -66,7 +67,7 @@ struct Sgd {
     const T log_exponent = log(shape[1]) + shape[2] * log(above);
     if (log_exponent < Real(-80)) return T(1);
     if (log_exponent > Real(4)) return T(0);  // e^55 times the least λ is above 1
-    const T value = Real(1) + shape[0] * (Real(1) - exp(exp(log_exponent)));
+    const T value = Real(1) - shape[0] * expm1(exp(log_exponent));
     return value > Real(0) ? value : T(0);
   }
 };

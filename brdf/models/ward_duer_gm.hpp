@@ -6,7 +6,7 @@
 
 namespace gonio {
 
-/// f = ρd/π + ρs/(π α²) e^{-tan²θh/α²} (h·h)/(h·n)⁴ with the unnormalised half vector h = ωi + ωo (Eq. 17), that is 1/(4π α²) at the
+/// f = ρd/π + ρs/(π α²) e^{-tan²θh/α²} (h·h)/(h·n)⁴ with the unnormalised half vector h = ωi + ωo, that is 1/(4π α²) at the
 /// normal. Energy: ρd + ρs <= 1 is enough. Where both directions lie in the surface the lobe has no limit and is 0 here.
 struct WardDuerGm {
   static constexpr std::string_view name = "ward-duer-gm";

@@ -6,7 +6,7 @@
 
 namespace gonio {
 
-/// f = ρd/π + ρs/(π αx αy) e^{-tan²θh (cos²φh/αx² + sin²φh/αy²)} (h·h)/(h·n)⁴ with the unnormalised half vector h = ωi + ωo (Eq. 17).
+/// f = ρd/π + ρs/(π αx αy) e^{-tan²θh (cos²φh/αx² + sin²φh/αy²)} (h·h)/(h·n)⁴ with the unnormalised half vector h = ωi + ωo.
 /// Axes as in `ward-anisotropic`, the rest as in `ward-duer-gm`.
 struct WardDuerGmAnisotropic {
   static constexpr std::string_view name = "ward-duer-gm-anisotropic";

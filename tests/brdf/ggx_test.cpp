@@ -54,3 +54,29 @@ TEST_CASE("GGX evaluates in float as in double") {
   }
   CHECK(worst < float_rounding);
 }
+
+TEST_CASE("separable shadowing is never brighter than the height-correlated one, and equal at the normal") {
+  test::Random random(test::seed);
+  INFO("seed " << test::seed);
+  int brighter = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const LobeGeometry g = lobe_geometry(test::upper_direction(random), test::upper_direction(random));
+    const double alpha = std::pow(10.0, test::uniform(random, -3, 0.5));
+    brighter += ggx_separable_lobe(g, alpha) > ggx_lobe(g, alpha) * (1 + 1e-14);
+  }
+  CHECK(brighter == 0);
+  const LobeGeometry normal = lobe_geometry(GonioAngles{0_deg, 0_deg, 0_deg, 0_deg});
+  CHECK(ggx_separable_lobe(normal, 0.3) == Approx(ggx_lobe(normal, 0.3)).epsilon(1e-14));
+}
+
+TEST_CASE("the exact Fresnel reflectance has its textbook values") {
+  CHECK(dielectric_fresnel(1.0, 1.5) == Approx(0.04).epsilon(1e-13));
+  CHECK(dielectric_fresnel(0.0, 1.5) == Approx(1).epsilon(1e-13));
+  // At Brewster's angle, tan = n, only s-polarised light is reflected: half of ((n² - 1)/(n² + 1))².
+  const double n = 1.5, brewster = (n * n - 1) / (n * n + 1);
+  CHECK(dielectric_fresnel(1 / std::sqrt(1 + n * n), n) == Approx(brewster * brewster / 2).epsilon(1e-12));
+  // Between, Schlick's approximation is close for a dielectric.
+  for (const double c : {0.2, 0.5, 0.8}) CHECK(dielectric_fresnel(c, 1.5) == Approx(0.04 + 0.96 * schlick_weight(c)).margin(0.03));
+  CHECK(of("ggx-fresnel", {0, 1, 0.3, 1.5}, {0_deg, 0_deg, 0_deg, 0_deg}) ==
+        Approx(of("ggx", {0, 0.04, 1, 0.3}, {0_deg, 0_deg, 0_deg, 0_deg})).epsilon(1e-12));
+}

@@ -155,7 +155,8 @@ TEST_CASE("a cosine lobe is nothing where its cosine is not positive, at s = 0 t
   LobeGeometry g;
   g.log_cos_h = g.log_cos_psi = g.log_cos_retro = LobeGeometry::no_lobe;
   for (const ModelInfo& info : model_infos()) {
-    if (info.nonlinear_count() != 1 || info.parameters.back().name != "s") continue;
+    // The back vector of the last has no logarithm of its own in the geometry.
+    if (info.nonlinear_count() != 1 || info.parameters.back().name != "s" || info.name == "retro-blinn-phong") continue;
     std::vector<double> values = test::example_values(info);
     values.back() = 0;
     INFO(info.name);
