@@ -16,11 +16,11 @@ Check check_bilateral(const CheckSubject& subject, const CheckOptions& options) 
   check.threshold = options.margin;
   if (holds_by_construction(subject, &Symmetry::bilateral)) {
     check.verdict = Verdict::vacuous;
-    check.detail = "holds by construction of the data or the model, so there is nothing to test";
+    check.detail = "cannot fail: it holds by construction of the data or the model, so nothing was tested";
     return check;
   }
   if (subject.datasets.empty()) {
-    describe_by_evaluation(check, subject, [](const GonioAngles& angles, double) { return mirrored(angles); });
+    judge_by_evaluation(check, subject, options, [](const GonioAngles& angles, double) { return mirrored(angles); });
     return check;
   }
   const Contrasts pairs = mirror_pairs(subject.datasets);

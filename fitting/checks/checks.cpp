@@ -10,13 +10,16 @@ const std::vector<CheckEntry>& check_list() {
                                             {"isotropy", &check_isotropy},
                                             {"bilateral", &check_bilateral},
                                             {"energy", &check_energy},
-                                            {"positivity", &check_positivity}};
+                                            {"positivity", &check_positivity},
+                                            {"monotonicity", &check_monotonicity},
+                                            {"mirror_constancy", &check_mirror_constancy}};
   return list;
 }
 
 std::vector<Check> run_checks(const CheckSubject& subject, const CheckOptions& options) {
   std::vector<Check> checks;
   for (const CheckEntry& entry : check_list()) checks.push_back(entry.run(subject, options));
+  std::erase_if(checks, [](const Check& check) { return check.verdict == Verdict::skipped; });
   std::vector<std::size_t> tested;
   std::vector<double> p;
   for (std::size_t k = 0; k < checks.size(); ++k)

@@ -47,16 +47,24 @@ Check check_bilateral(const CheckSubject& subject, const CheckOptions& options);
 Check check_energy(const CheckSubject& subject, const CheckOptions& options);
 /// No value is significantly negative: f < -3u against the number noise gives. Effect: the part of the samples beyond that.
 Check check_positivity(const CheckSubject& subject, const CheckOptions& options);
+/// Along theta_h away from the mirror direction f falls: distance to the nearest falling profile (isotonic regression), with a parametric
+/// bootstrap for its distribution. In-plane scans of samples; lines of constant (theta_d, phi_d) of tables and models. Never `fail`: it is
+/// no law of physics. Effect: root mean square relative distance beyond the noise.
+Check check_monotonicity(const CheckSubject& subject, const CheckOptions& options);
+/// At theta_h = 0 an isotropic sample cannot depend on phi_d: what a table in half and difference angles, which cannot fail reciprocity
+/// or isotropy, can fail. `skipped` for anything else. Effect: root mean square relative difference.
+Check check_mirror_constancy(const CheckSubject& subject, const CheckOptions& options);
 
 struct CheckEntry {
   const char* id;
   Check (*run)(const CheckSubject&, const CheckOptions&);
 };
 
-/// Every check: reciprocity, isotropy, bilateral, energy, positivity. A new check is one file and one line in the list.
+/// Every check: reciprocity, isotropy, bilateral, energy, positivity, monotonicity, mirror_constancy. A new check is one file and one line
+/// in the list.
 const std::vector<CheckEntry>& check_list();
 
-/// Runs the whole list and applies Holm's correction over the checks that have a p-value.
+/// Runs the whole list, leaves out what is skipped, and applies Holm's correction over the checks that have a p-value.
 std::vector<Check> run_checks(const CheckSubject& subject, const CheckOptions& options);
 
 }  // namespace gonio::fitting

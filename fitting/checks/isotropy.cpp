@@ -165,11 +165,11 @@ Check check_isotropy(const CheckSubject& subject, const CheckOptions& options) {
   check.threshold = options.margin;
   if (holds_by_construction(subject, &Symmetry::isotropic)) {
     check.verdict = Verdict::vacuous;
-    check.detail = "holds by construction of the data or the model, so there is nothing to test";
+    check.detail = "cannot fail: it holds by construction of the data or the model, so nothing was tested";
     return check;
   }
   if (subject.datasets.empty()) {
-    describe_by_evaluation(check, subject, [](const GonioAngles& angles, double number) {
+    judge_by_evaluation(check, subject, options, [](const GonioAngles& angles, double number) {
       const Angle turn = radians(2 * std::numbers::pi * number);
       return GonioAngles{angles.theta_i, angles.phi_i + turn, angles.theta_o, angles.phi_o + turn};
     });

@@ -74,11 +74,12 @@ Check check_reciprocity(const CheckSubject& subject, const CheckOptions& options
   check.threshold = options.margin;
   if (holds_by_construction(subject, &Symmetry::reciprocal)) {
     check.verdict = Verdict::vacuous;
-    check.detail = "holds by construction of the data or the model, so there is nothing to test";
+    check.detail = "cannot fail: it holds by construction of the data or the model, so nothing was tested";
+    if (!holds_by_construction(subject, &Symmetry::bilateral)) check.detail += "; bilateral symmetry can fail instead";
     return check;
   }
   if (subject.datasets.empty()) {
-    describe_by_evaluation(check, subject, [](const GonioAngles& angles, double) { return exchanged(angles); });
+    judge_by_evaluation(check, subject, options, [](const GonioAngles& angles, double) { return exchanged(angles); });
     return check;
   }
   Contrasts pairs = partner_pairs(subject, false);

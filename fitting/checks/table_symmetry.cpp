@@ -3,14 +3,52 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "fitting/checks/repeatability.hpp"
+#include "fitting/distributions.hpp"
+
 namespace gonio::fitting {
 namespace {
 
-constexpr std::size_t pairs = 4096;
+constexpr std::size_t pairs = 8192;
+constexpr std::size_t blocks = 16;
+constexpr double nearby_deg = 5;         // beyond the cells of every table in use
+constexpr double model_rounding = 1e-9;  // relative, of analytic models
+constexpr double farthest_deg = 80;
+
+/// Weighted means over blocks: mean and its standard uncertainty.
+struct Mean {
+  double value = 0, u = 0;
+};
+
+Mean block_mean(const std::vector<TableDifference>& differences, const std::function<double(const TableDifference&)>& of) {
+  double sum = 0, weight = 0;
+  std::array<double, blocks> block_sum{}, block_weight{};
+  for (std::size_t k = 0; k < differences.size(); ++k) {
+    const std::size_t block = k * blocks / differences.size();
+    const double w = differences[k].weight, value = of(differences[k]);
+    sum += w * value, weight += w;
+    block_sum[block] += w * value, block_weight[block] += w;
+  }
+  Mean out;
+  if (!(weight > 0)) return out;
+  out.value = sum / weight;
+  double scatter = 0, used = 0;
+  for (std::size_t b = 0; b < blocks; ++b)
+    if (block_weight[b] > 0) scatter += std::pow(block_sum[b] / block_weight[b] - out.value, 2), used += 1;
+  out.u = used > 1 ? std::sqrt(scatter / (used - 1) / used) : INFINITY;
+  return out;
+}
+
+/// The relative difference of two values, from -2 to 2 whatever their signs; NaN where they have none.
+double relative_difference(double f, double image) {
+  const double sum = std::abs(f) + std::abs(image);
+  return sum > 0 ? 2 * (f - image) / sum : std::nan("");
+}
 
 }  // namespace
 
@@ -34,35 +72,83 @@ GonioAngles spread_pair(std::size_t k, double& number) {
     power /= g;
     value = std::fmod(0.5 + static_cast<double>(k + 1) * power, 1.0);
   }
-  const double low = std::cos(80 * std::numbers::pi / 180);
+  const double low = std::cos(farthest_deg * std::numbers::pi / 180);
   const auto zenith = [&](double v) { return radians(std::acos(low + (1 - low) * v)); };
   number = x[4];
   return {zenith(x[0]), radians(2 * std::numbers::pi * x[1]), zenith(x[2]), radians(2 * std::numbers::pi * x[3])};
 }
 
-void describe_by_evaluation(Check& check, const CheckSubject& subject,
-                            const std::function<GonioAngles(const GonioAngles&, double)>& image) {
-  check.verdict = Verdict::vacuous;
-  check.unit = "relative";
+void judge_table(Check& check, const std::vector<TableDifference>& differences, const std::string& tested, const CheckSubject& subject,
+                 const CheckOptions& options) {
+  const bool model = dynamic_cast<const AnalyticBrdf*>(subject.brdf.get()) != nullptr;
+  const Mean square = block_mean(differences, [](const TableDifference& d) { return d.here * d.here; });
+  const Mean shared = block_mean(differences, [](const TableDifference& d) { return d.here * d.nearby; });
+  const double q = student_two_sided_quantile(1 - 2 * options.alpha, blocks - 1);
+  const auto root = [](double value) { return std::sqrt(std::max(0.0, value)); };
+  check.n = differences.size();
+  check.effect = root(square.value);
+  check.effect_upper = root(square.value + q * square.u);
+  if (square.u > 0 && square.value > 0) check.u_effect = square.u / (2 * *check.effect);
+  std::vector<double> sizes;
+  for (const TableDifference& d : differences) sizes.push_back(std::abs(d.here));
+  check.detail = fmt::format("{}: relative difference {} ± {} rms, {} median", tested, percent_text(*check.effect),
+                             percent_text(check.u_effect.value_or(0)), percent_text(median_of(std::move(sizes))));
+  if (model) {
+    check.verdict = *check.effect > options.margin ? Verdict::fail : *check.effect > model_rounding ? Verdict::warn : Verdict::pass;
+    return;
+  }
+  check.verdict = differences.empty()                                  ? Verdict::vacuous
+                  : *check.effect_upper <= options.margin              ? Verdict::pass
+                  : root(shared.value - q * shared.u) > options.margin ? Verdict::fail
+                                                                       : Verdict::vacuous;
+  check.detail += fmt::format("; places {:.0f}° apart share {} of it, which is no noise", nearby_deg, percent_text(root(shared.value)));
+  if (check.verdict == Verdict::vacuous)
+    check.detail += fmt::format("; a table without uncertainties cannot tell the rest from noise within {}", percent_text(options.margin));
+  if (check.verdict != Verdict::fail) return;
+  std::vector<TableDifference> largest = differences;
+  const auto size = [](const TableDifference& d) {
+    return d.here * d.nearby > 0 ? d.weight * std::min(std::abs(d.here), std::abs(d.nearby)) : 0;
+  };
+  std::stable_sort(largest.begin(), largest.end(), [&](const auto& a, const auto& b) { return size(a) > size(b); });
+  largest.resize(std::min(largest.size(), options.where));
+  for (const TableDifference& d : largest)
+    check.where.push_back({d.angles, subject.brdf->channels()[d.channel].name, d.ratio > 0 ? std::optional(d.ratio) : std::nullopt,
+                           std::nullopt, std::nullopt, std::nullopt});
+}
+
+void judge_by_evaluation(Check& check, const CheckSubject& subject, const CheckOptions& options,
+                         const std::function<GonioAngles(const GonioAngles&, double)>& image) {
   if (!subject.brdf) {
+    check.verdict = Verdict::vacuous;
     check.detail = "a table is tested through its interpolation, which was not given";
     return;
   }
-  double square = 0, mean2 = 0;
+  const auto difference = [&](const GonioAngles& angles, double number, std::vector<double>& ratio) {
+    const GonioAngles other = image(angles, number);
+    const auto f = subject.brdf->eval(angles.wi(), angles.wo()), g = subject.brdf->eval(other.wi(), other.wo());
+    std::vector<double> out;
+    ratio.clear();
+    for (std::size_t c = 0; c < f.size(); ++c)
+      out.push_back(relative_difference(f[c], g[c])), ratio.push_back(g[c] > 0 ? f[c] / g[c] : std::nan(""));
+    return out;
+  };
+  std::vector<TableDifference> differences;
   for (std::size_t k = 0; k < pairs; ++k) {
     double number = 0;
-    const GonioAngles angles = spread_pair(k, number), other = image(angles, number);
-    const auto a = subject.brdf->eval(angles.wi(), angles.wo()), b = subject.brdf->eval(other.wi(), other.wo());
-    for (std::size_t c = 0; c < a.size(); ++c) {
-      if (!std::isfinite(a[c]) || !std::isfinite(b[c])) continue;
-      square += (a[c] - b[c]) * (a[c] - b[c]);
-      mean2 += 0.25 * (a[c] + b[c]) * (a[c] + b[c]);
-      ++check.n;
-    }
+    const GonioAngles angles = spread_pair(k, number);
+    // Every difference grows by steps of the same size; the sign of each keeps the pair inside the range.
+    const auto moved = [](Angle theta) { return theta + degrees(theta.degrees() > farthest_deg / 2 ? -nearby_deg : nearby_deg); };
+    const GonioAngles close{moved(angles.theta_i), angles.phi_i, moved(angles.theta_o), angles.phi_o + degrees(nearby_deg)};
+    std::vector<double> ratio, unused;
+    const auto here = difference(angles, number, ratio), nearby = difference(close, number, unused);
+    for (std::size_t c = 0; c < here.size(); ++c)
+      if (std::isfinite(here[c]) && std::isfinite(nearby[c]))
+        differences.push_back({here[c], nearby[c], angles.theta_i.cos() * angles.theta_o.cos(), angles, c, ratio[c]});
   }
-  check.effect = mean2 > 0 ? std::sqrt(square / mean2) : 0;
-  check.detail = fmt::format("{} pairs differ by {:.2g} % (rms), but a table without uncertainties cannot tell this from noise", check.n,
-                             100 * *check.effect);
+  judge_table(check, differences,
+              fmt::format("{} pairs even in solid angle up to {:.0f}°, 2(f-f')/(|f|+|f'|) weighted by cos θi cos θo", differences.size(),
+                          farthest_deg),
+              subject, options);
 }
 
 }  // namespace gonio::fitting
