@@ -25,6 +25,7 @@ std::shared_ptr<const AnalyticBrdf> fitted_model(const std::shared_ptr<const Dat
            });
   };
   FitOptions options;
+  options.robust = Robust::none;  // a sharp lobe on few samples is no contamination
   const FitResult lobe = fit(*observations, options);
   if (determined(lobe)) return std::make_shared<AnalyticBrdf>(lobe.model, lobe.channels, lobe.values);
   // Where the data show no lobe its parameters are undetermined, and the diffuse part alone is the model.

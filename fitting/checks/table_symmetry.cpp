@@ -101,7 +101,7 @@ void judge_table(Check& check, const std::vector<TableDifference>& differences, 
                   : *check.effect_upper <= options.margin              ? Verdict::pass
                   : root(shared.value - q * shared.u) > options.margin ? Verdict::fail
                                                                        : Verdict::vacuous;
-  check.detail += fmt::format("; places {:.0f}° apart share {} of it, which is no noise", nearby_deg, percent_text(root(shared.value)));
+  check.detail += fmt::format("; {} of that is no noise, for places {:.0f}° apart share it", percent_text(root(shared.value)), nearby_deg);
   if (check.verdict == Verdict::vacuous)
     check.detail += fmt::format("; a table without uncertainties cannot tell the rest from noise within {}", percent_text(options.margin));
   if (check.verdict != Verdict::fail) return;
