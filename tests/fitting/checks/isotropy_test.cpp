@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "fitting/checks/tilt.hpp"
 #include "tests/fitting/checks/sweeps.hpp"
 
 #include "tests/check.hpp"
@@ -53,4 +54,31 @@ TEST_CASE("isotropy is vacuous at one azimuth of the sample, by construction and
   auto bare = sweep(turned_poses(), percent, 1);
   bare->u.clear();
   CHECK(run(check_isotropy, bare).verdict == Verdict::vacuous);
+}
+
+TEST_CASE("isotropy: a tilted normal is told from an anisotropic sample, by its harmonic and by the slope of the lobe") {
+  const AnalyticBrdf truth = lobe("blinn-phong", .3, .2, 1000);
+  std::vector<GonioAngles> angles;
+  for (double turn = 0; turn < 360; turn += 30)
+    for (const double theta : {20., 40., 60.})
+      for (const double off : {-6., -3., 0., 3., 6.})
+        for (const double side : {177., 180., 183.})
+          angles.push_back({degrees(theta), degrees(turn), degrees(theta + off), degrees(turn + side)});
+  auto tilted = readings(truth, angles, percent, 4);
+  for (std::size_t k = 0; k < angles.size(); ++k) {
+    const double ratio =
+        truth.eval(seen_by_tilted(angles[k], TiltFrame::sample, .1 * std::numbers::pi / 180, 0))[0] / truth.eval(angles[k])[0];
+    tilted->f[0][k] *= ratio, tilted->u[0][k] *= ratio;
+  }
+  const Check tilt = run(check_isotropy, tilted);
+  INFO(tilt.detail);
+  CHECK(tilt.verdict == Verdict::warn);
+  CHECK(tilt.detail.find("a tilt of the normal by 0.1") != std::string::npos);
+  CHECK(tilt.detail.find("not a violation of isotropy") != std::string::npos);
+  auto brushed = readings(truth, angles, percent, 4);
+  for (std::size_t k = 0; k < angles.size(); ++k) brushed->f[0][k] *= 1 + .06 * std::cos(2 * angles[k].phi_i.radians());
+  const Check anisotropic = run(check_isotropy, brushed);
+  INFO(anisotropic.detail);
+  CHECK(anisotropic.verdict == Verdict::fail);
+  CHECK(anisotropic.detail.find("twice per turn") != std::string::npos);
 }
