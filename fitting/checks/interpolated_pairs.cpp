@@ -71,8 +71,8 @@ class InterpolationVariance {
       value_.push_back(std::isfinite(excess) ? std::max(0.0, excess) : 0);
     }
   }
+  bool known() const { return !value_.empty(); }
   double at(double theta_h) const {
-    if (value_.empty()) return 0;
     const auto group = std::lower_bound(upper_.begin(), upper_.end(), theta_h);
     return group == upper_.end() ? value_.back() : value_[static_cast<std::size_t>(group - upper_.begin())];
   }
@@ -84,7 +84,11 @@ class InterpolationVariance {
 std::vector<Residual> neighbour_residuals(const Channelled& data, const LocalInterpolation& interpolation, std::vector<double>& scatter) {
   std::vector<Residual> residuals;
   for (std::size_t r = 0; r < data.readings.size(); ++r) {
-    const auto weights = interpolation.at(data.angles[r], r);
+    // A partner's incidence was hardly ever measured: leave out all of this one's, or the error between incidences stays unseen.
+    const double theta_i = data.angles[r].theta_i.radians();
+    const auto weights = interpolation.at(data.angles[r], [&](std::size_t other) {
+      return other == r || std::abs(data.angles[other].theta_i.radians() - theta_i) <= same_direction_rad;
+    });
     if (!weights) continue;
     double c = 0, variance = 0;
     for (const auto& [reading, weight] : difference(data, r, *weights)) {
@@ -119,6 +123,7 @@ InterpolatedPairs interpolated_partners(const std::vector<std::shared_ptr<const 
       Channelled data = readings_of(dataset, c, model.get(), first[d], first.back());
       const LocalInterpolation interpolation(data.angles);
       const InterpolationVariance error(neighbour_residuals(data, interpolation, scatter));
+      if (!error.known()) continue;
       const std::size_t base = out.set.readings.size();
       for (std::size_t r = 0; r < data.readings.size(); ++r) {
         const GonioAngles partner = exchanged(data.angles[r]);

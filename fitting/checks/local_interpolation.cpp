@@ -28,7 +28,7 @@ std::vector<Point> points_of(const std::vector<GonioAngles>& angles) {
 LocalInterpolation::LocalInterpolation(const std::vector<GonioAngles>& angles)
     : nodes_(points_of(angles)), reach_(reach_in_spacings * nodes_.median_spacing()) {}
 
-std::optional<LocalInterpolation::Weights> LocalInterpolation::at(const GonioAngles& target, std::size_t skip) const {
+std::optional<LocalInterpolation::Weights> LocalInterpolation::at(const GonioAngles& target, const NearestNodes::Skip& skip) const {
   const Point to = key_turned(target);
   const auto near = nodes_.nearest(to, used + 1, skip);
   if (near.size() < least_used || near.front().distance > reach_) return std::nullopt;

@@ -22,8 +22,8 @@ class LocalInterpolation {
 
   using Weights = std::vector<std::pair<std::size_t, double>>;
   /// Weights that sum to one; none where the target lies outside the samples, or further from them than three times their median spacing.
-  /// `skip`: a sample left out.
-  std::optional<Weights> at(const GonioAngles& target, std::size_t skip = static_cast<std::size_t>(-1)) const;
+  /// `skip`: samples left out.
+  std::optional<Weights> at(const GonioAngles& target, const NearestNodes::Skip& skip = {}) const;
 
  private:
   NearestNodes nodes_;

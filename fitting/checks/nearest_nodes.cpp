@@ -10,7 +10,8 @@ namespace gonio::fitting {
 
 struct NearestNodes::Query {
   const Point& to;
-  std::size_t count, skip;
+  std::size_t count;
+  const Skip& skip;
   std::vector<Neighbour> found;  ///< a heap on squared distances, the farthest on top
 };
 
@@ -48,7 +49,7 @@ void NearestNodes::visit(std::size_t begin, std::size_t end, Query& query) const
   if (begin >= end) return;
   const std::size_t middle = begin + (end - begin) / 2, node = order_[middle], axis = split_axis_[middle];
   const Point& point = points_[node];
-  if (node != query.skip) {
+  if (!query.skip || !query.skip(node)) {
     double square = 0;
     for (std::size_t k = 0; k < point.size(); ++k) square += (point[k] - query.to[k]) * (point[k] - query.to[k]);
     if (query.found.size() < query.count) {
@@ -66,7 +67,7 @@ void NearestNodes::visit(std::size_t begin, std::size_t end, Query& query) const
   if (query.found.size() < query.count || beyond * beyond < query.found.front().distance) side(beyond > 0);
 }
 
-std::vector<Neighbour> NearestNodes::nearest(const Point& to, std::size_t count, std::size_t skip) const {
+std::vector<Neighbour> NearestNodes::nearest(const Point& to, std::size_t count, const Skip& skip) const {
   Query query{to, count, skip, {}};
   if (count > 0) visit(0, order_.size(), query);
   std::sort_heap(query.found.begin(), query.found.end(), nearer);
@@ -77,7 +78,8 @@ std::vector<Neighbour> NearestNodes::nearest(const Point& to, std::size_t count,
 double NearestNodes::median_spacing() const {
   if (points_.size() < 2) return 0;
   std::vector<double> spacing;
-  for (std::size_t k = 0; k < points_.size(); ++k) spacing.push_back(nearest(points_[k], 1, k).front().distance);
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    spacing.push_back(nearest(points_[k], 1, [k](std::size_t node) { return node == k; }).front().distance);
   const auto middle = spacing.begin() + static_cast<std::ptrdiff_t>(spacing.size() / 2);
   std::nth_element(spacing.begin(), middle, spacing.end());
   return *middle;

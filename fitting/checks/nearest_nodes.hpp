@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace gonio::fitting {
@@ -21,8 +22,9 @@ class NearestNodes {
  public:
   explicit NearestNodes(std::vector<Point> points);
 
-  /// The `count` nearest points, nearest first, without the point `skip` (none if it is no index); fewer if there are fewer.
-  std::vector<Neighbour> nearest(const Point& to, std::size_t count, std::size_t skip = static_cast<std::size_t>(-1)) const;
+  using Skip = std::function<bool(std::size_t node)>;
+  /// The `count` nearest points, nearest first, without those that `skip` names; fewer if there are fewer.
+  std::vector<Neighbour> nearest(const Point& to, std::size_t count, const Skip& skip = {}) const;
   std::size_t size() const noexcept { return points_.size(); }
   const Point& point(std::size_t node) const { return points_[node]; }
   /// Median distance of a point to its nearest neighbour; 0 for fewer than two points.

@@ -60,7 +60,7 @@ std::optional<Repeatability> instrument_scatter(const CheckSubject& subject, dou
   if (scatter) scatter->relative *= std::numbers::sqrt2;  // of a difference
   const MedianEffect mirror = median_effect(mirror_pairs(subject.datasets), 0.5);
   if (neighbour_scatter > 0 && (!scatter || neighbour_scatter > scatter->relative))
-    scatter = Repeatability{neighbour_scatter, neighbours, "neighbouring samples"};
+    scatter = Repeatability{neighbour_scatter, neighbours, "samples and their neighbours at other incidences"};
   if (mirror.n > 0 && (!scatter || mirror.median > scatter->relative)) return Repeatability{mirror.median, mirror.n, "mirror pairs"};
   return scatter;
 }
@@ -96,9 +96,12 @@ Check check_reciprocity(const CheckSubject& subject, const CheckOptions& options
     if (interpolated.set.contrasts.size() > pairs.contrasts.size()) {
       pairs = std::move(interpolated.set);
       neighbour_scatter = interpolated.neighbour_scatter;
-      kind = fmt::format(" (partners interpolated{}, takes the sample for isotropic: noise {}, interpolation {} of f)",
-                         interpolated.with_model ? " in the ratio to a fitted model" : "", percent_text(interpolated.u_noise),
-                         percent_text(interpolated.u_interpolation));
+      kind = fmt::format(" (partners interpolated{}, takes the sample for isotropic",
+                         interpolated.with_model ? " in the ratio to a fitted model" : "");
+      if (std::isfinite(interpolated.u_noise))
+        kind += fmt::format(": noise {}, interpolation {} of f", percent_text(interpolated.u_noise),
+                            percent_text(interpolated.u_interpolation));
+      kind += ")";
     }
   }
   if (pairs.contrasts.empty()) {

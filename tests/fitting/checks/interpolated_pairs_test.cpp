@@ -72,3 +72,16 @@ TEST_CASE("The directed tests of scattered data keep their size, because shared 
   // Three standard deviations of a proportion of 5 %.
   CHECK(refused_at_5_percent <= .05 * tests + 3 * std::sqrt(.05 * .95 * tests));
 }
+
+TEST_CASE("A dense grid of few incidences knows what it cannot interpolate: reciprocal data with a misfitting model do not fail") {
+  // No Blinn-Phong lobe: the ratio to the fit is not smooth between incidences 15° apart.
+  const auto truth = [](const GonioAngles& a) {
+    const double t = a.theta_i.cos() * a.theta_o.cos();
+    return 1 + 2 * std::pow(1 - t, 4) + .5 * std::cos(6 * (a.theta_i.radians() + a.theta_o.radians()));
+  };
+  std::vector<GonioAngles> angles;
+  for (const GonioAngles& a : polar_grid({10.3, 25.1, 40.4, 55.2}, 3, 6)) angles.push_back(a);
+  const Check check = run(check_reciprocity, sweep(angles, percent, 2, truth));
+  INFO(check.detail);
+  CHECK(check.verdict != Verdict::fail);
+}

@@ -35,7 +35,7 @@ TEST_CASE("A smooth function is interpolated to second order, turned with the pl
 TEST_CASE("A sample that is left out has no weight, and nothing is said outside the samples") {
   const auto angles = grid();
   const LocalInterpolation interpolation(angles);
-  const auto weights = interpolation.at(angles[200], 200);
+  const auto weights = interpolation.at(angles[200], [](std::size_t node) { return node == 200; });
   REQUIRE(weights);
   for (const auto& [node, weight] : *weights) CHECK(node != 200);
   CHECK(!interpolation.at({degrees(89), degrees(0), degrees(30), degrees(0)}));

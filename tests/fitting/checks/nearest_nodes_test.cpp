@@ -36,7 +36,7 @@ TEST_CASE("The tree finds the same neighbours as looking at every point") {
     for (std::size_t k = 0; k < points.size(); ++k)
       if (k != q) all.push_back(distance(points[k], queries[q]));
     std::sort(all.begin(), all.end());
-    const auto found = tree.nearest(queries[q], 7, q);
+    const auto found = tree.nearest(queries[q], 7, [q](std::size_t node) { return node == q; });
     REQUIRE(found.size() == 7);
     for (std::size_t k = 0; k < found.size(); ++k) {
       CHECK(found[k].distance == all[k]);
