@@ -29,8 +29,8 @@ struct CheckSubject {
 };
 
 /// f(wi, wo) = f(wo, wi) on the partner pairs of a data set (numerics E): χ² of all differences and directed tests against patterns that
-/// change sign under the exchange (cosines, in-plane components, time). Exact partners in the sample's frame; where there are none,
-/// partners at equal azimuth difference, which takes the sample for isotropic and says so.
+/// change sign under the exchange (cosines, in-plane components, time). Exact partners in the sample's frame; where there are hardly any,
+/// partners at equal azimuth difference, or by interpolation of the ratio to a fitted model: both take the sample for isotropic and say so.
 /// Effect: root mean square relative difference beyond the noise. A difference that a tilt of the sample's normal explains is called a
 /// tilt, and noise that is understated is called that: both warn.
 Check check_reciprocity(const CheckSubject& subject, const CheckOptions& options);

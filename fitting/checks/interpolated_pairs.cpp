@@ -157,6 +157,7 @@ InterpolatedPairs interpolated_partners(const std::vector<std::shared_ptr<const 
     first_place += dataset.size();
   }
   if (mean2 > 0) out.u_noise = std::sqrt(noise / mean2), out.u_interpolation = std::sqrt(interpolated / mean2);
+  out.neighbours = scatter.size();
   out.neighbour_scatter = median_of(std::move(scatter));
   return out;
 }

@@ -18,7 +18,8 @@ struct InterpolatedPairs {
   /// Median |difference| between a sample and the value its neighbours at other incidences give, relative: noise and interpolation of data
   /// without u.
   double neighbour_scatter = 0;
-  bool with_model = false;  ///< the ratio to a fitted model was interpolated, not f itself
+  std::size_t neighbours = 0;  ///< samples it comes from
+  bool with_model = false;     ///< the ratio to a fitted model was interpolated, not f itself
 };
 
 /// f(sample) - f̂(its partner) for every sample whose partner lies among the others. f̂ is the local interpolation of the ratio of the data

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -27,11 +28,11 @@ std::vector<double> antisymmetric_patterns(const GonioAngles& angles, double tim
   return {wi.z() - wo.z(), wi.x() - wo.x(), wi.y() - wo.y(), time};
 }
 
-Contrasts partner_pairs(const CheckSubject& subject, bool turned) {
+Contrasts partner_pairs(const CheckSubject& subject, PlaceKey (*key)(const GonioAngles&) noexcept) {
   Contrasts pairs;
   pairs.pattern_names = pattern_names;
   pairs.pattern_share = pattern_share;
-  add_pairs(subject.datasets, {turned ? key_turned : key_of, exchanged}, antisymmetric_patterns, pairs);
+  add_pairs(subject.datasets, {key, exchanged}, antisymmetric_patterns, pairs);
   return pairs;
 }
 
@@ -82,20 +83,23 @@ Check check_reciprocity(const CheckSubject& subject, const CheckOptions& options
     judge_by_evaluation(check, subject, options, [](const GonioAngles& angles, double) { return exchanged(angles); });
     return check;
   }
-  Contrasts pairs = partner_pairs(subject, false);
-  // A stage that never turns has exact partners on one side of the plane of incidence only.
-  Contrasts turned = partner_pairs(subject, true);
+  Contrasts pairs = partner_pairs(subject, key_of);
   std::string kind;
-  if (2 * pairs.contrasts.size() < turned.contrasts.size()) {
-    pairs = std::move(turned);
-    kind = " (partners at equal azimuth difference: takes the sample for isotropic)";
+  // A stage that never turns has exact partners in the plane of incidence only, and a half-plane has them folded.
+  const std::array<std::pair<PlaceKey (*)(const GonioAngles&) noexcept, const char*>, 2> assumptions{
+      {{key_turned, " (partners at equal azimuth difference: takes the sample for isotropic)"},
+       {key_folded, " (partners at equal size of the azimuth difference: takes the sample for isotropic and mirror symmetric)"}}};
+  for (const auto& [key, words] : assumptions) {
+    Contrasts more = partner_pairs(subject, key);
+    if (2 * pairs.contrasts.size() < more.contrasts.size()) pairs = std::move(more), kind = words;
   }
   double neighbour_scatter = 0;
+  std::size_t neighbours = 0;
   if (static_cast<double>(pairs.contrasts.size()) < enough_dof) {
     InterpolatedPairs interpolated = interpolated_partners(subject.datasets, antisymmetric_patterns, pattern_names, pattern_share);
     if (interpolated.set.contrasts.size() > pairs.contrasts.size()) {
       pairs = std::move(interpolated.set);
-      neighbour_scatter = interpolated.neighbour_scatter;
+      neighbour_scatter = interpolated.neighbour_scatter, neighbours = interpolated.neighbours;
       kind = fmt::format(" (partners interpolated{}, takes the sample for isotropic",
                          interpolated.with_model ? " in the ratio to a fitted model" : "");
       if (std::isfinite(interpolated.u_noise))
@@ -110,7 +114,7 @@ Check check_reciprocity(const CheckSubject& subject, const CheckOptions& options
     return check;
   }
   const std::string tested = fmt::format("{} partner pairs{}, {}", pairs.contrasts.size(), kind, departures(pairs));
-  judge_symmetry(check, pairs, instrument_scatter(subject, neighbour_scatter, pairs.contrasts.size()), subject, options,
+  judge_symmetry(check, pairs, instrument_scatter(subject, neighbour_scatter, neighbours), subject, options,
                  {"reciprocity", tested, "difference", "chi²/n", ": look for tilt, spot, field or drift first"});
   return check;
 }

@@ -40,6 +40,12 @@ PlaceKey key_turned(const GonioAngles& angles) noexcept {
   return {si, 0, wi.z(), cosine, sine, wo.z()};
 }
 
+PlaceKey key_folded(const GonioAngles& angles) noexcept {
+  PlaceKey key = key_turned(angles);
+  key[4] = std::abs(key[4]);
+  return key;
+}
+
 GonioAngles exchanged(const GonioAngles& angles) noexcept { return {angles.theta_o, angles.phi_o, angles.theta_i, angles.phi_i}; }
 
 std::optional<std::size_t> Places::find(const PlaceKey& key) const {

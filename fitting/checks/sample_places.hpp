@@ -22,6 +22,8 @@ using PlaceKey = std::array<double, 6>;
 PlaceKey key_of(const GonioAngles& angles) noexcept;
 /// Where either direction is the normal, only the other's zenith angle counts.
 PlaceKey key_turned(const GonioAngles& angles) noexcept;
+/// The same with both sides of the plane of incidence folded onto one.
+PlaceKey key_folded(const GonioAngles& angles) noexcept;
 GonioAngles exchanged(const GonioAngles& angles) noexcept;
 
 /// Places found by hashing on a grid a few times coarser than the tolerance and looking into the neighbour cells where needed.

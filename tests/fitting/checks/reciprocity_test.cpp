@@ -158,3 +158,18 @@ TEST_CASE("reciprocity: the directed test keeps its size and sees an asymmetry o
   CHECK(skewed.directed >= .8 - allowed);
   CHECK(skewed.combined >= .8 - allowed);
 }
+
+TEST_CASE("reciprocity: data of one side of the plane of incidence have partners by folding, and that is said") {
+  std::vector<GonioAngles> half;
+  for (const double a : {10., 25., 40., 55., 70.})
+    for (const double b : {10., 25., 40., 55., 70.})
+      for (double phi = 10; phi < 180; phi += 10) half.push_back({degrees(a), degrees(0), degrees(b), degrees(phi)});
+  const Check fair = run(check_reciprocity, sweep(half, percent, 5));
+  const Check skewed =
+      run(check_reciprocity, sweep(half, percent, 5, [](const GonioAngles& a) { return 1 + .1 * (a.theta_i.cos() - a.theta_o.cos()); }));
+  INFO(fair.detail << " / " << skewed.detail);
+  CHECK(fair.n == 170);
+  CHECK(fair.detail.find("mirror symmetric") != std::string::npos);
+  CHECK(fair.verdict == Verdict::pass);
+  CHECK(skewed.verdict == Verdict::fail);
+}
