@@ -7,6 +7,8 @@
 
 namespace gonio::fitting {
 
+constexpr double rounding = 1e-8;  // relative: below that digits are noise of the arithmetic
+
 const char* name(Verdict verdict) noexcept {
   switch (verdict) {
     case Verdict::pass: return "pass";
@@ -20,6 +22,7 @@ const char* name(Verdict verdict) noexcept {
 
 std::string percent_text(double relative) {
   if (!std::isfinite(relative)) return "unknown";
+  if (relative != 0 && std::abs(relative) < rounding) return "less than 1e-6 %";
   return std::abs(relative) < 0.995 ? fmt::format("{:.2g} %", 100 * relative) : fmt::format("{:.0f} %", 100 * relative);
 }
 

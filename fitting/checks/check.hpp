@@ -60,7 +60,7 @@ struct Check {
   std::vector<IncidenceAlbedo> incidences;
 };
 
-/// A relative number for a sentence: `0.95 %`, `110 %`; `unknown` for NaN.
+/// A relative number for a sentence: `0.95 %`, `110 %`, `less than 1e-6 %`; `unknown` for NaN.
 std::string percent_text(double relative);
 
 /// The rule of every test: significant and beyond the margin fails, significant alone warns; not significant passes only if the upper

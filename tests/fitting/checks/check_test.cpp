@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fitting/checks/check.hpp"
 
+#include <cmath>
+
 #include "tests/check.hpp"
 
 using namespace gonio;
@@ -11,4 +13,13 @@ TEST_CASE("judge: significant and large fails, significant warns, equivalent pas
   CHECK(judge(true, .01, .015, .02) == Verdict::warn);
   CHECK(judge(false, .005, .015, .02) == Verdict::pass);
   CHECK(judge(false, .005, .03, .02) == Verdict::vacuous);
+}
+
+TEST_CASE("Relative numbers are told with two digits, whole above 100 %, and not below rounding") {
+  CHECK(percent_text(.00951) == "0.95 %");
+  CHECK(percent_text(0) == "0 %");
+  CHECK(percent_text(1.104) == "110 %");
+  CHECK(percent_text(-.05) == "-5 %");
+  CHECK(percent_text(3e-14) == "less than 1e-6 %");
+  CHECK(percent_text(std::nan("")) == "unknown");
 }
