@@ -251,11 +251,8 @@ std::vector<std::vector<double>> places_of(const std::vector<Minimum>& minima) {
   return out;
 }
 
-std::vector<Minimum> search_several(const Profile& profile, const SearchSpace& space, int threads) {
-  const Terms few = thinned(profile.terms(), rows_for_search);
-  const Profile quick(few, profile.limits());
-  std::vector<Candidate> candidates =
-      space.dimension() == 2 ? grid_candidates(quick, space, threads) : sequence_candidates(quick, space, threads);
+/// The points worth a descent, far from each other, the lowest first.
+std::vector<std::vector<double>> starts_among(const SearchSpace& space, std::vector<Candidate> candidates) {
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
   std::vector<std::vector<double>> starts;
   for (const Candidate& candidate : candidates) {
@@ -263,28 +260,36 @@ std::vector<Minimum> search_several(const Profile& profile, const SearchSpace& s
     const bool near = std::any_of(starts.begin(), starts.end(), [&](const auto& z) { return distance(space, z, candidate.z) < far_apart; });
     if (!near) starts.push_back(candidate.z);
   }
-  const std::vector<Minimum> found = descend_from_all(quick, space, starts, threads);
-  if (few.rows() == profile.terms().rows()) return found;
-  return descend_from_all(profile, space, places_of(found), threads);
+  return starts;
+}
+
+Found search_rows(const Profile& profile, const SearchSpace& space, int threads) {
+  Found found;
+  if (space.dimension() == 1) {
+    found.scan = scan_axis(profile, space, threads);
+    found.minima = minima_of_scan(profile, space, found.scan, threads);
+  } else {
+    std::vector<Candidate> candidates =
+        space.dimension() == 2 ? grid_candidates(profile, space, threads) : sequence_candidates(profile, space, threads);
+    found.minima = descend_from_all(profile, space, starts_among(space, std::move(candidates)), threads);
+  }
+  return found;
 }
 
 }  // namespace
 
 Found search_globally(const Profile& profile, const SearchSpace& space, int threads) {
-  Found found;
-  if (space.dimension() == 0) {
-    found.minima.push_back({{}, profile.at(space.theta({}), threads)});
-  } else if (space.dimension() == 1) {
-    found.scan = scan_axis(profile, space, threads);
-    found.minima = minima_of_scan(profile, space, found.scan, threads);
-  } else {
-    found.minima = search_several(profile, space, threads);
-  }
-  return found;
+  if (space.dimension() == 0) return {{}, {{{}, profile.at(space.theta({}), threads)}}};
+  // Twice as many rows are still searched whole: thinning them gains less than the second look at all rows costs.
+  if (profile.terms().rows() <= 2 * rows_for_search) return search_rows(profile, space, threads);
+  const Terms few = thinned(profile.terms(), rows_for_search);
+  const Found found = search_rows(Profile(few, profile.limits()), space, threads);
+  return {{}, descend_from_all(profile, space, places_of(found.minima), threads)};
 }
 
 Found follow(const Profile& profile, const SearchSpace& space, const std::vector<Minimum>& known, int threads) {
-  if (space.dimension() < 2) return search_globally(profile, space, threads);
+  if (space.dimension() == 0 || (space.dimension() == 1 && profile.terms().rows() <= 2 * rows_for_search))
+    return search_globally(profile, space, threads);
   return {{}, descend_from_all(profile, space, places_of(known), threads)};
 }
 

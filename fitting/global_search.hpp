@@ -9,7 +9,7 @@
 namespace gonio::fitting {
 
 struct Found {
-  std::vector<ProfilePoint> scan;  ///< along the axis, if there is one free parameter: the profile of all rows on equal steps
+  std::vector<ProfilePoint> scan;  ///< along the axis, if there is one free parameter and few rows: their profile on equal steps
   std::vector<Minimum> minima;     ///< the lowest first; the point itself if nothing is free
 };
 
@@ -17,8 +17,9 @@ struct Found {
 /// for Minimization without Derivatives, 1973) to 1e-9. Ripples at the level of rounding are no minima; of a flat stretch the lower end
 /// counts.
 /// Two: a grid, its local minima refined by descent. More: a low-discrepancy sequence (generalised golden ratio), the best points far
-/// from each other refined. These look at a part of many rows (thinned) before they look at all; two minima without a barrier between
-/// them are one; equal terms stand in order.
+/// from each other refined.
+/// Of many rows a part (thinned) is searched, and the minima found there are refined by descent on all. Two minima without a barrier
+/// between them are one; equal terms stand in order.
 Found search_globally(const Profile& profile, const SearchSpace& space, int threads);
 
 /// The minima that known ones have moved to under other weights.

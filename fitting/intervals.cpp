@@ -104,18 +104,29 @@ void estimate(Solution& solution, const Profile& profile, const SearchSpace& spa
   // The profile may lie a rounding error below or above the polished cost: the lower of the two is the floor.
   double least = solution.cost;
   for (const Minimum& minimum : found.minima) least = std::min(least, minimum.point.cost);
+  std::vector<std::size_t> free_axes, free_linear;
+  for (const SearchAxis& axis : space.axes()) free_axes.push_back(places.of_nonlinear(axis.parameter));
+  for (std::size_t c = 0; c < places.channels; ++c)
+    for (std::size_t k = 0; k < places.linear; ++k)
+      if (std::isnan(profile.limits()[c].held[k])) free_linear.push_back(places.of_linear(c, k));
+  const auto walk = [&](const std::vector<std::size_t>& asked) {
+    std::vector<Minimum> minima{{space.coordinates(solution.theta), profile.at(solution.theta, options.threads)}};
+    minima.insert(minima.end(), found.minima.begin(), found.minima.end());
+    return joint_reach(profile, space, minima, places, asked, own, least, solution.budget, q, options.threads);
+  };
   std::vector<Reach> reach(places.size());
   std::optional<LineIntervals> line;
   if (scale_known && space.dimension() < 2) {
-    line.emplace(profile, space, found, solution.theta, least, solution.budget, options.threads);
-    for (const SearchAxis& axis : space.axes()) reach[places.of_nonlinear(axis.parameter)] = line->axis();
-    for (std::size_t c = 0; c < places.channels; ++c)
-      for (std::size_t k = 0; k < places.linear; ++k)
-        if (std::isnan(profile.limits()[c].held[k])) reach[places.of_linear(c, k)] = line->linear(c, k);
+    if (!found.scan.empty())
+      reach[free_axes.front()] = reach_on_scan(profile, space, found, least, solution.budget, options.threads);
+    else if (!free_axes.empty())
+      reach = walk(free_axes);
+    line.emplace(profile, space, free_axes.empty() ? Reach{} : reach[free_axes.front()], solution.theta, least, solution.budget,
+                 options.threads);
+    for (const std::size_t place : free_linear) reach[place] = line->linear(place / places.linear, place % places.linear);
   } else if (scale_known) {
-    std::vector<Minimum> minima{{space.coordinates(solution.theta), profile.at(solution.theta, options.threads)}};
-    minima.insert(minima.end(), found.minima.begin(), found.minima.end());
-    reach = joint_reach(profile, space, minima, places, own, least, solution.budget, q, options.threads);
+    free_linear.insert(free_linear.end(), free_axes.begin(), free_axes.end());
+    reach = walk(free_linear);
   }
 
   solution.nonlinear_estimate.assign(places.nonlinear, {});

@@ -175,18 +175,13 @@ double end_of(const Path& path, const Minimum& start, const Budget& budget, doub
 }  // namespace
 
 std::vector<Reach> joint_reach(const Profile& profile, const SearchSpace& space, const std::vector<Minimum>& minima,
-                               const ParameterPlaces& places, const Matrix& covariance, double least, double budget, double quantile,
-                               int threads) {
+                               const ParameterPlaces& places, std::span<const std::size_t> asked, const Matrix& covariance, double least,
+                               double budget, double quantile, int threads) {
   std::vector<Reach> out(places.size());
-  std::vector<std::size_t> free;
-  for (std::size_t c = 0; c < places.channels; ++c)
-    for (std::size_t k = 0; k < places.linear; ++k)
-      if (std::isnan(profile.limits()[c].held[k])) free.push_back(places.of_linear(c, k));
-  for (const SearchAxis& axis : space.axes()) free.push_back(places.of_nonlinear(axis.parameter));
   const bool split = profile.terms().rows() <= many_rows;
   const Budget limit{least, budget, quantile};
-  for_each_index(2 * free.size(), split ? threads : 1, [&](std::size_t task) {
-    const std::size_t parameter = free[task / 2];
+  for_each_index(2 * asked.size(), split ? threads : 1, [&](std::size_t task) {
+    const std::size_t parameter = asked[task / 2];
     const double side = task % 2 == 0 ? -1 : 1;
     const Path path(profile, space, places, covariance, parameter);
     const Minimum* start = &minima.front();

@@ -11,9 +11,10 @@ namespace gonio::fitting {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t interval_nodes = 33;  // across the interval of the nonlinear parameter, a parabola through the best three
-constexpr double still_moving = 1e-3;       // part of its value that an end moves from node to node
-constexpr std::size_t many_rows = 1000;     // worth several threads
+constexpr std::size_t interval_nodes = 33;      // across the interval of the nonlinear parameter, a parabola through the best three
+constexpr std::size_t nodes_of_many_rows = 17;  // of an interval with two ends: an error of a thousandth of its width
+constexpr double still_moving = 1e-3;           // part of its value that an end moves from node to node
+constexpr std::size_t many_rows = 1000;         // worth several threads
 
 /// The profile along the one axis of the search.
 struct Line {
@@ -45,37 +46,6 @@ double end_of_interval(const Line& line, double inside, double outside, double l
   return b;
 }
 
-/// Ends on the axis, and the finite stretch that was looked at.
-struct LineRange {
-  Reach reach;
-  double from = 0, to = 0;
-};
-
-LineRange range_on(const Line& line, const Found& found, double least, double budget) {
-  struct Node {
-    double z, cost;
-  };
-  std::vector<Node> nodes;
-  for (const ProfilePoint& point : found.scan) nodes.push_back({line.space.coordinates(point.theta).front(), point.cost});
-  for (const Minimum& minimum : found.minima) nodes.push_back({minimum.z.front(), minimum.point.cost});
-  std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.z < b.z; });
-  const auto inside = [&](const Node& node) { return node.cost <= least + budget; };
-  const auto first = std::find_if(nodes.begin(), nodes.end(), inside);
-  const auto last = std::find_if(nodes.rbegin(), nodes.rend(), inside);
-  LineRange range;
-  range.from = nodes.front().z, range.to = nodes.back().z;
-  if (first == nodes.end()) return range;
-  if (first != nodes.begin()) {
-    const auto before = first - 1;
-    range.reach.low = range.from = end_of_interval(line, first->z, before->z, least, budget, before->cost);
-  }
-  if (last != nodes.rbegin()) {
-    const auto after = last - 1;
-    range.reach.high = range.to = end_of_interval(line, last->z, after->z, least, budget, after->cost);
-  }
-  return range;
-}
-
 /// The largest of values on equal steps, refined by the parabola through it and its neighbours.
 double peak(const std::vector<double>& values) {
   const auto best = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
@@ -87,18 +57,43 @@ double peak(const std::vector<double>& values) {
 
 }  // namespace
 
-LineIntervals::LineIntervals(const Profile& profile, const SearchSpace& space, const Found& found, std::span<const double> theta,
-                             double least, double budget, int threads)
-    : limit_(least + budget), centre_(profile.at(theta, threads)) {
-  if (space.dimension() == 0) return;
+Reach reach_on_scan(const Profile& profile, const SearchSpace& space, const Found& found, double least, double budget, int threads) {
   const Line line{profile, space, threads};
-  const LineRange range = range_on(line, found, least, budget);
-  axis_ = range.reach;
-  nodes_.resize(interval_nodes);
-  const bool split = profile.terms().rows() > many_rows && profile.terms().rows() <= rows_per_piece;
+  struct Node {
+    double z, cost;
+  };
+  std::vector<Node> nodes;
+  for (const ProfilePoint& point : found.scan) nodes.push_back({space.coordinates(point.theta).front(), point.cost});
+  for (const Minimum& minimum : found.minima) nodes.push_back({minimum.z.front(), minimum.point.cost});
+  std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) { return a.z < b.z; });
+  const auto inside = [&](const Node& node) { return node.cost <= least + budget; };
+  const auto first = std::find_if(nodes.begin(), nodes.end(), inside);
+  const auto last = std::find_if(nodes.rbegin(), nodes.rend(), inside);
+  Reach reach;
+  if (first == nodes.end()) return reach;
+  if (first != nodes.begin()) {
+    const auto before = first - 1;
+    reach.low = end_of_interval(line, first->z, before->z, least, budget, before->cost);
+  }
+  if (last != nodes.rbegin()) {
+    const auto after = last - 1;
+    reach.high = end_of_interval(line, last->z, after->z, least, budget, after->cost);
+  }
+  return reach;
+}
+
+LineIntervals::LineIntervals(const Profile& profile, const SearchSpace& space, Reach axis, std::span<const double> theta, double least,
+                             double budget, int threads)
+    : limit_(least + budget), axis_(axis), centre_(profile.at(theta, threads)) {
+  if (space.dimension() == 0) return;
+  const double from = std::max(axis.low, space.axes().front().low), to = std::min(axis.high, space.axes().front().high);
+  const bool closed = std::isfinite(axis.low) && std::isfinite(axis.high), many = profile.terms().rows() > many_rows;
+  const std::size_t count = closed && many ? nodes_of_many_rows : interval_nodes;
+  nodes_.resize(count);
+  const bool split = many && profile.terms().rows() <= rows_per_piece;
   const Line alone{profile, space, split ? 1 : threads};
-  for_each_index(interval_nodes, split ? threads : 1, [&](std::size_t k) {
-    nodes_[k] = alone.at(range.from + (range.to - range.from) * static_cast<double>(k) / (interval_nodes - 1));
+  for_each_index(count, split ? threads : 1, [&](std::size_t k) {
+    nodes_[k] = alone.at(from + (to - from) * static_cast<double>(k) / static_cast<double>(count - 1));
   });
 }
 

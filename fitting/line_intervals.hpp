@@ -11,15 +11,17 @@
 
 namespace gonio::fitting {
 
-/// The set of points of the axis within the budget, and what the linear parameters can be there.
+/// The ends on the axis of the set of points within the budget, from a scan of all rows and its minima; infinite where the set has no end
+/// before the search's own.
+Reach reach_on_scan(const Profile& profile, const SearchSpace& space, const Found& found, double least, double budget, int threads);
+
+/// What the linear parameters can be over that set.
 class LineIntervals {
  public:
-  /// `theta`: of the solution; the budget counts from `least`.
-  LineIntervals(const Profile& profile, const SearchSpace& space, const Found& found, std::span<const double> theta, double least,
-                double budget, int threads);
+  /// `axis`: the ends of the set, if there is an axis; `theta`: of the solution; the budget counts from `least`.
+  LineIntervals(const Profile& profile, const SearchSpace& space, Reach axis, std::span<const double> theta, double least, double budget,
+                int threads);
 
-  /// The ends of the set on the axis: infinite where it has none before the search's own.
-  Reach axis() const noexcept { return axis_; }
   /// A function of the nonlinear parameters.
   using Factor = std::function<double(const std::vector<double>&)>;
   /// The smallest and largest x_k, or x_k · factor, over all points of the set and all other linear parameters within the budget.
