@@ -64,7 +64,7 @@ Trial trial_step(const SearchSpace& space, const Minimum& at, const Step& step, 
   for (Eigen::Index i = 0; i < change.size(); ++i) {
     const SearchAxis& axis = space.axes()[step.moving[static_cast<std::size_t>(i)]];
     if (!std::isfinite(change[i])) change[i] = 0;
-    const double longest = longest_step * (axis.high - axis.low);
+    const double longest = longest_step * (axis.scan_high - axis.scan_low);
     if (std::abs(change[i]) > longest) shorten = std::min(shorten, longest / std::abs(change[i]));
   }
   Trial trial{at.z, 0, 0};

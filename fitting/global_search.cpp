@@ -71,7 +71,7 @@ void sort_by_cost(std::vector<Minimum>& minima) {
 }
 
 double along(const SearchAxis& axis, std::size_t k, std::size_t points) {
-  return axis.low + (axis.high - axis.low) * static_cast<double>(k) / static_cast<double>(points - 1);
+  return axis.scan_low + (axis.scan_high - axis.scan_low) * static_cast<double>(k) / static_cast<double>(points - 1);
 }
 
 std::vector<ProfilePoint> scan_axis(const Profile& profile, const SearchSpace& space, int threads) {
@@ -102,6 +102,12 @@ std::vector<Minimum> minima_of_scan(const Profile& profile, const SearchSpace& s
     ProfilePoint point = at(x);
     if (point.cost < minimum.point.cost - rise * 1e-3 || (point.cost < minimum.point.cost && k > 0 && k + 1 < scan.size()))
       minimum = {{x}, std::move(point)};
+    // At an end of the scan the minimum may lie beyond it.
+    if ((k == 0 && axis.low < axis.scan_low) || (k + 1 == scan.size() && axis.high > axis.scan_high)) {
+      DescentOptions options;
+      options.threads = threads;
+      minimum = descend(profile, space, minimum.z, options);
+    }
     found.push_back(std::move(minimum));
   };
   for (std::size_t k = 1; k < scan.size(); ++k) {
@@ -180,7 +186,7 @@ std::vector<Candidate> sequence_candidates(const Profile& profile, const SearchS
     for (std::size_t a = 0; a < d; ++a) {
       step /= g;
       const double part = std::fmod(0.5 + static_cast<double>(n + 1) * step, 1.0);
-      z[a] = space.axes()[a].low + part * (space.axes()[a].high - space.axes()[a].low);
+      z[a] = space.axes()[a].scan_low + part * (space.axes()[a].scan_high - space.axes()[a].scan_low);
     }
     std::vector<double> theta = space.theta(z);
     std::vector<std::vector<double>> none;
@@ -194,7 +200,7 @@ std::vector<Candidate> sequence_candidates(const Profile& profile, const SearchS
 double distance(const SearchSpace& space, const std::vector<double>& a, const std::vector<double>& b) {
   double out = 0;
   for (std::size_t k = 0; k < a.size(); ++k)
-    out = std::max(out, std::abs(a[k] - b[k]) / std::max(space.axes()[k].high - space.axes()[k].low, 1e-300));
+    out = std::max(out, std::abs(a[k] - b[k]) / std::max(space.axes()[k].scan_high - space.axes()[k].scan_low, 1e-300));
   return out;
 }
 
@@ -268,6 +274,8 @@ Found search_rows(const Profile& profile, const SearchSpace& space, int threads)
   if (space.dimension() == 1) {
     found.scan = scan_axis(profile, space, threads);
     found.minima = minima_of_scan(profile, space, found.scan, threads);
+    const SearchAxis& axis = space.axes().front();
+    if (axis.low < axis.scan_low || axis.high > axis.scan_high) found.scan.clear();  // it does not reach the ends
   } else {
     std::vector<Candidate> candidates =
         space.dimension() == 2 ? grid_candidates(profile, space, threads) : sequence_candidates(profile, space, threads);

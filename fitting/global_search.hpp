@@ -9,8 +9,9 @@
 namespace gonio::fitting {
 
 struct Found {
-  std::vector<ProfilePoint> scan;  ///< along the axis, if there is one free parameter and few rows: their profile on equal steps
-  std::vector<Minimum> minima;     ///< the lowest first; the point itself if nothing is free
+  std::vector<ProfilePoint>
+      scan;  ///< along the axis, if there is one free parameter and few rows: their profile on equal steps from end to end of the search
+  std::vector<Minimum> minima;  ///< the lowest first; the point itself if nothing is free
 };
 
 /// One free parameter: the profile on 61 equal steps of its axis; every local minimum refined by Brent's method (R. P. Brent, Algorithms

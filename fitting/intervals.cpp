@@ -16,6 +16,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-13;    // of the terms themselves: a perfect fit still has this much uncertainty
+constexpr double at_rounding = 1e6;   // of that squared: residuals so small are rounding errors, whose profile has no shape
 constexpr double significant = 0.01;  // probability of a χ² that widens intervals
 
 /// The kind of an estimate from ends that may not exist, widened by `extra` (the part of sigma that samples share, times q).
@@ -37,6 +38,23 @@ Estimate fixed_at(double value) {
   Estimate out;
   out.value = value;
   out.kind = IntervalKind::fixed;
+  return out;
+}
+
+/// Ends from the covariance alone, on the axes of the search; none where there is no covariance.
+std::vector<Reach> linearised_reach(const Solution& solution, const ParameterPlaces& places, const SearchSpace& space,
+                                    const Matrix& covariance, double quantile) {
+  std::vector<Reach> out(places.size());
+  const auto set = [&](std::size_t place, double value, double slope) {
+    const double half = quantile * std::sqrt(covariance(place, place)) / slope;
+    if (std::isfinite(half)) out[place] = {value - half, value + half};
+  };
+  for (std::size_t c = 0; c < places.channels; ++c)
+    for (std::size_t k = 0; k < places.linear; ++k) set(places.of_linear(c, k), solution.linear[c][k], 1);
+  for (const SearchAxis& axis : space.axes()) {
+    const double value = solution.theta[axis.parameter];
+    set(places.of_nonlinear(axis.parameter), axis.coordinate(value), axis.slope(value));
+  }
   return out;
 }
 
@@ -109,7 +127,9 @@ void estimate(Solution& solution, const Profile& profile, const SearchSpace& spa
   for (std::size_t c = 0; c < places.channels; ++c)
     for (std::size_t k = 0; k < places.linear; ++k)
       if (std::isnan(profile.limits()[c].held[k])) free_linear.push_back(places.of_linear(c, k));
+  const bool exact = solution.cost <= at_rounding * floor;
   const auto walk = [&](const std::vector<std::size_t>& asked) {
+    if (exact) return linearised_reach(solution, places, space, own, q);
     std::vector<Minimum> minima{{space.coordinates(solution.theta), profile.at(solution.theta, options.threads)}};
     minima.insert(minima.end(), found.minima.begin(), found.minima.end());
     return joint_reach(profile, space, minima, places, asked, own, least, solution.budget, q, options.threads);

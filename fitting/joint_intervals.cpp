@@ -17,6 +17,7 @@ constexpr double first_part = 0.02;       // of an axis, or of a value: the firs
 constexpr double most_growth = 4;         // of a step outwards
 constexpr double most_slope = 0.01;       // of the budget per unit of an axis, at an end of the search
 constexpr int most_steps = 60;
+constexpr int steps_on_path = 15;  // of a descent that starts where the path leads
 
 /// A parameter and the least cost for each of its values.
 class Path {
@@ -31,7 +32,7 @@ class Path {
     return axis_ ? at.z[*axis_] : at.point.channel[parameter_ / places_.linear].x[parameter_ % places_.linear];
   }
   Minimum at(double value, std::vector<double> z, double tolerance, int threads) const {
-    DescentOptions options{axis_, tolerance, most_steps, threads};
+    DescentOptions options{axis_, tolerance, steps_on_path, threads};
     if (axis_) z[*axis_] = value;
     Minimum found = axis_ ? descend(profile_, space_, z, options) : descend(holding(value), space_, z, options);
     // Beyond the order of equal terms the same set lies once more.
@@ -67,7 +68,7 @@ class Path {
   /// The standard uncertainty on the axis, NaN without covariance.
   double sigma(const std::vector<double>& theta) const { return std::sqrt(covariance_(parameter_, parameter_)) / slope(parameter_, theta); }
   double first_step(double value) const {
-    return axis_ ? first_part * (space_.axes()[*axis_].high - space_.axes()[*axis_].low) : first_part * std::max(value, 1e-6);
+    return axis_ ? first_part * (space_.axes()[*axis_].scan_high - space_.axes()[*axis_].scan_low) : first_part * std::max(value, 1e-6);
   }
   /// How the axes move with the parameter, from the covariance; 0 where there is none.
   std::vector<double> direction(const std::vector<double>& theta) const {

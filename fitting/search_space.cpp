@@ -50,10 +50,12 @@ SearchSpace::SearchSpace(const ModelKernel& kernel, const std::vector<Wanted>& w
     SearchAxis axis;
     axis.parameter = j;
     axis.logarithmic = parameter.axis == Parameter::Axis::logarithmic;
-    double low = std::max(parameter.scan_low, parameter.lower), high = std::min(parameter.scan_high, parameter.upper);
-    if (!std::isnan(wanted[j].lower) && (!axis.logarithmic || wanted[j].lower > 0)) low = wanted[j].lower;
-    if (!std::isnan(wanted[j].upper)) high = wanted[j].upper;
-    axis.low = axis.coordinate(std::min(low, high)), axis.high = axis.coordinate(high);
+    double low = parameter.lower, high = parameter.upper, scan_low = parameter.scan_low, scan_high = parameter.scan_high;
+    if (axis.logarithmic && !(low > 0)) low = scan_low;
+    if (!std::isnan(wanted[j].lower)) scan_low = std::max(low, wanted[j].lower), low = scan_low;
+    if (!std::isnan(wanted[j].upper)) scan_high = high = wanted[j].upper;
+    axis.low = axis.coordinate(low), axis.high = axis.coordinate(high);
+    axis.scan_low = axis.coordinate(std::clamp(scan_low, low, high)), axis.scan_high = axis.coordinate(std::clamp(scan_high, low, high));
     axes_.push_back(axis);
   }
   const auto& terms = kernel.info->terms;

@@ -14,7 +14,8 @@ namespace gonio::fitting {
 struct SearchAxis {
   std::size_t parameter = 0;  ///< its place among the nonlinear parameters
   bool logarithmic = true;
-  double low = 0, high = 0;  ///< ends of the search on the axis: the scan range of the model, cut or replaced by the caller's bounds
+  double low = 0, high = 0;            ///< ends of the search on the axis: the bounds of the model, or the caller's
+  double scan_low = 0, scan_high = 0;  ///< where it looks first: the scan range of the model within those
 
   double coordinate(double value) const;
   double value(double coordinate) const;

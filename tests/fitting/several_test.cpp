@@ -155,3 +155,55 @@ TEST_CASE("a truth of two lobes fitted by one reports both minima in 200 of 200 
   CHECK(both == 200);
   CHECK(recovered == 50);
 }
+
+TEST_CASE("an anisotropic lobe fitted to isotropic data has both widths equal within their intervals") {
+  // Incidences from two azimuths, so that both widths are seen.
+  std::vector<GonioAngles> angles = polar_grid({10, 40}, 5, 15);
+  for (const GonioAngles& a : polar_grid({10, 40}, 5, 15, 90)) angles.push_back(a);
+  const AnalyticBrdf truth("ward", single_channel("Y"), {{.2, .3, .15}});
+  FitOptions options;
+  options.model = "ward-anisotropic";
+  int held = 0, all = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const FitResult result = fit(*observe(readings(truth, angles, {1e-3, 0, .01}, seed)), options);
+    INFO("seed " << seed);
+    REQUIRE(result.status == Status::converged);
+    const FittedParameter &x = parameter(result, "alpha_x"), &y = parameter(result, "alpha_y");
+    REQUIRE(x.kind == IntervalKind::interval);
+    REQUIRE(y.kind == IntervalKind::interval);
+    CHECK(std::abs(x.value - y.value) < 3 * std::hypot(*x.sigma, *y.sigma));
+    CHECK(x.value == Approx(.15).epsilon(0.02));
+    for (const FittedParameter* p : {&x, &y}) held += *p->low <= .15 && .15 <= *p->high, ++all;
+  }
+  INFO(held << " of " << all);
+  CHECK(held >= 33);  // 95 % of 40: fewer with a probability below 1 %
+}
+
+TEST_CASE("95 % intervals of two lobes hold the truth in 95 % of data sets") {
+  const std::vector<double> truth_values{.2, .3, .1, 15, 800};
+  const AnalyticBrdf truth("blinn-phong+blinn-phong", single_channel("Y"), {truth_values});
+  FitOptions options;
+  options.model = "blinn-phong+blinn-phong";
+  options.metric = Metric::linear;
+  options.threads = 1;
+  constexpr int draws = 200;
+  std::vector<int> held(truth_values.size()), halved(truth_values.size());
+  for (unsigned seed = 1; seed <= draws; ++seed) {
+    auto data = readings(truth, lobe_angles(), {1e-3, 0, .01}, seed);
+    for (std::size_t k = 0; k < data->size(); ++k) data->u[0][k] = std::hypot(1e-3, .01 * truth.eval(data->angles[k])[0]);
+    const FitResult result = fit(*observe(data), options);
+    for (std::size_t k = 0; k < held.size(); ++k) {
+      const FittedParameter& p = result.parameters[k];
+      const double low = p.low.value_or(p.value), high = p.high.value_or(p.value), t = truth_values[k];
+      held[k] += low <= t && t <= high;
+      halved[k] += (low + p.value) / 2 <= t && t <= (high + p.value) / 2;
+    }
+  }
+  // A coverage of 95 % gives fewer than 181 or more than 197 hits of 200 with a probability below 1 %.
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    INFO("parameter " << k << ": " << held[k]);
+    CHECK(held[k] >= 181);
+    CHECK(held[k] <= 197);
+    CHECK(halved[k] < 181);
+  }
+}
