@@ -15,10 +15,11 @@ constexpr std::size_t scan_points = 61;
 constexpr double brent_tolerance = 1e-9;
 /// A rise smaller than this part of the largest cost of the scan is rounding, not a barrier between two minima.
 constexpr double ripple = 1e-12;
-constexpr std::size_t many_rows = 1000;            // worth several threads
-constexpr std::size_t rows_for_search = 2048;      // of a thinned search
-constexpr std::size_t grid_points = 25;            // along each of two axes
-constexpr std::size_t points_per_dimension = 192;  // of the low-discrepancy sequence
+constexpr std::size_t many_rows = 1000;        // worth several threads
+constexpr std::size_t rows_for_search = 2048;  // of a thinned search
+constexpr std::size_t grid_points = 25;        // along each of two axes
+constexpr std::size_t sequence_points = 512;   // of the low-discrepancy sequence
+constexpr int steps_to_basin = 10;             // of a first descent, which need only tell minima apart
 constexpr std::size_t most_candidates = 16, most_minima = 8;
 constexpr double far_apart = 0.1;    // part of an axis: a nearer candidate is left to the better one's descent
 constexpr double same_place = 1e-6;  // part of an axis: two descents that ended in one minimum
@@ -180,7 +181,7 @@ std::vector<Candidate> sequence_candidates(const Profile& profile, const SearchS
   double g = 1.5;
   for (int k = 0; k < 60; ++k) g = std::pow(1 + g, 1.0 / static_cast<double>(d + 1));
   std::vector<std::vector<double>> places;
-  for (std::size_t n = 0; n < points_per_dimension * d; ++n) {
+  for (std::size_t n = 0; n < sequence_points; ++n) {
     std::vector<double> z(d);
     double step = 1;
     for (std::size_t a = 0; a < d; ++a) {
@@ -239,10 +240,11 @@ void order(Minimum& minimum, const Profile& profile, const SearchSpace& space, i
 }
 
 std::vector<Minimum> descend_from_all(const Profile& profile, const SearchSpace& space, const std::vector<std::vector<double>>& starts,
-                                      int threads) {
+                                      int threads, int most_steps = DescentOptions{}.most_steps) {
   std::vector<Minimum> out(starts.size());
   const bool split = profile.terms().rows() <= rows_for_search;  // many rows have threads of their own
   DescentOptions options;
+  options.most_steps = most_steps;
   options.threads = split ? 1 : threads;
   for_each_index(starts.size(), split ? threads : 1, [&](std::size_t k) {
     out[k] = descend(profile, space, starts[k], options);
@@ -279,7 +281,9 @@ Found search_rows(const Profile& profile, const SearchSpace& space, int threads)
   } else {
     std::vector<Candidate> candidates =
         space.dimension() == 2 ? grid_candidates(profile, space, threads) : sequence_candidates(profile, space, threads);
-    found.minima = descend_from_all(profile, space, starts_among(space, std::move(candidates)), threads);
+    const std::vector<Minimum> basins =
+        descend_from_all(profile, space, starts_among(space, std::move(candidates)), threads, steps_to_basin);
+    found.minima = descend_from_all(profile, space, places_of(basins), threads);
   }
   return found;
 }
