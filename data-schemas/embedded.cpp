@@ -47,6 +47,7 @@ const char* name(Schema schema) noexcept {
     case Schema::fit_line: return "fit-line";
     case Schema::choice: return "choice";
     case Schema::compare: return "compare";
+    case Schema::statistics: return "statistics";
   }
   return "";
 }

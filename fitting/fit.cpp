@@ -14,6 +14,7 @@
 #include "fitting/fit_errors.hpp"
 #include "fitting/point_fit.hpp"
 #include "fitting/solution.hpp"
+#include "fitting/sufficient_statistics.hpp"
 #include "fitting/weigher.hpp"
 
 namespace gonio::fitting {
@@ -243,6 +244,67 @@ void assemble(FitResult& result, const std::vector<Solution>& solutions, const M
                    second_minimum(result, *kernel.info, budget, solutions.front().cost), identifiability(result)};
 }
 
+/// The fit of terms that stand: everything but what only the observations know, the errors under every metric.
+FitResult fit_terms(Terms& terms, const Channels& channels, const FitOptions& options, WeigherOptions weigher,
+                    const std::vector<CorrelatedComponent>& correlated) {
+  const ModelKernel& kernel = terms.kernel;
+  FitResult result;
+  result.model = options.model;
+  result.channels = channels;
+  result.n_observations = terms.n_observations;
+  result.n_masked = terms.n_masked;
+  if (terms.n_observations == 0) {
+    result.status = Status::no_usable_data;
+    result.reason = "no sample can be used: all are masked, unknown or outside the domain of the metric";
+    return result;
+  }
+  std::vector<Solution> solutions;
+  const auto solved = [&](Terms& these, std::size_t first) {
+    const SolveOptions how = solve_options(options, kernel, these.channel.size());
+    weigher.free_parameters = free_parameters(how);
+    PointFit point_fit(these, how);
+    add_weighting(result.weighting, weigh(these, weigher, [&](bool global) { return point_fit(global); }), first);
+    return solve(these, how, correlated);
+  };
+  if (options.per_channel && terms.channel.size() > 1) {
+    for (std::size_t c = 0; c < terms.channel.size(); ++c) {
+      Terms one = only_channel(terms, c);
+      solutions.push_back(solved(one, c));
+    }
+  } else {
+    solutions.push_back(solved(terms, 0));
+  }
+  const auto broken = std::find_if(solutions.begin(), solutions.end(), [](const Solution& s) { return s.linear.empty(); });
+  if (broken == solutions.end()) {
+    assemble(result, solutions, kernel);
+  } else {
+    result.status = Status::failed;
+    result.reason = broken->reason;
+  }
+  return result;
+}
+
+/// Root mean square of the residuals of rows with weights that are 1 (cos² θi under linear-cos).
+double rms_of_rows(const Terms& terms, const std::vector<std::vector<double>>& values) {
+  const std::size_t linear = terms.kernel.linear;
+  double squares = 0, count = 0;
+  std::vector<double> columns(linear * terms.rows());
+  for (std::size_t c = 0; c < terms.channel.size(); ++c) {
+    const ChannelTerms& data = terms.channel[c];
+    terms.basis(0, terms.rows(), values[c].data() + linear, columns.data(), terms.rows());
+    for (std::size_t row = 0; row < terms.rows(); ++row) {
+      double fitted = 0;
+      for (std::size_t k = 0; k < linear; ++k) fitted += values[c][k] * columns[k * terms.rows() + row];
+      if (!(data.weight[row] > 0)) continue;
+      const double residual = terms.transform.value(fitted, terms.geometry[row].cos_i) - data.target[row];
+      squares += data.weight[row] * residual * residual;
+    }
+    squares += data.within;
+    count += static_cast<double>(data.count);
+  }
+  return count > 0 ? std::sqrt(squares / count) : 0.0;
+}
+
 }  // namespace
 
 double FitLikelihood::aicc() const noexcept {
@@ -292,54 +354,52 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const ModelKernel kernel = model_kernel(options.model);
   require_usable(options, *kernel.info);
-  FitResult result;
-  result.model = options.model;
-  result.metric = options.metric.value_or(Metric::linear);
-  result.channels = observations.channels();
-
+  const Metric metric = options.metric.value_or(Metric::linear);
   WeigherOptions weigher = weigher_options(options);
   // With weights by the variance of f the cosine of linear-cos cancels.
-  const bool cancels = weigher.estimate_variance && result.metric == Metric::linear_cos;
-  Terms terms = make_terms(observations, kernel, cancels ? Metric::linear : result.metric, options.threads, weigher.robust);
-  result.n_observations = terms.n_observations;
-  result.n_masked = terms.n_masked;
-  const std::size_t channels = terms.channel.size();
-  if (terms.n_observations == 0) {
-    result.status = Status::no_usable_data;
-    result.reason = "no sample can be used: all are masked, unknown or outside the domain of the metric";
-  } else {
-    std::vector<Solution> solutions;
-    const auto correlated = observations.correlated();
-    const auto repeats = weigher.estimate_variance && !terms.weighted && !terms.collapsed ? repeated_readings(observations)
-                                                                                          : std::vector<RepeatedReadings>{};
-    weigher.repeats = repeats;
-    const auto solved = [&](Terms& these, std::size_t first) {
-      const SolveOptions how = solve_options(options, kernel, these.channel.size());
-      weigher.free_parameters = free_parameters(how);
-      PointFit point_fit(these, how);
-      add_weighting(result.weighting, weigh(these, weigher, [&](bool global) { return point_fit(global); }), first);
-      return solve(these, how, correlated);
-    };
-    if (options.per_channel && channels > 1) {
-      for (std::size_t c = 0; c < channels; ++c) {
-        Terms one = only_channel(terms, c);
-        solutions.push_back(solved(one, c));
-      }
-    } else {
-      solutions.push_back(solved(terms, 0));
-    }
-    const auto broken = std::find_if(solutions.begin(), solutions.end(), [](const Solution& s) { return s.linear.empty(); });
-    if (broken != solutions.end()) {
-      result.status = Status::failed;
-      result.reason = broken->reason;
-    } else {
-      assemble(result, solutions, kernel);
-      const auto chi2_per_dof = result.errors.chi2_per_dof;
-      result.errors = fit_errors(observations, kernel, result.values, options.threads);
-      result.errors.chi2_per_dof = chi2_per_dof;
-    }
+  const bool cancels = weigher.estimate_variance && metric == Metric::linear_cos;
+  Terms terms = make_terms(observations, kernel, cancels ? Metric::linear : metric, options.threads, weigher.robust);
+  const auto repeats =
+      weigher.estimate_variance && !terms.weighted && !terms.collapsed ? repeated_readings(observations) : std::vector<RepeatedReadings>{};
+  weigher.repeats = repeats;
+  FitResult result = fit_terms(terms, observations.channels(), options, weigher, observations.correlated());
+  result.metric = metric;
+  if (!result.values.empty()) {
+    const auto chi2_per_dof = result.errors.chi2_per_dof;
+    result.errors = fit_errors(observations, kernel, result.values, options.threads);
+    result.errors.chi2_per_dof = chi2_per_dof;
   }
   add_angles(result.weighting.outliers, observations);
+  result.fit_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+FitResult fit(const SufficientStatistics& statistics, const FitOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  const ModelKernel kernel = model_kernel(options.model);
+  require_usable(options, *kernel.info);
+  if (options.metric && *options.metric != statistics.metric)
+    throw Error(ErrorKind::usage, {"metric", name(*options.metric), std::string(name(statistics.metric)) + ", whose sums these are"});
+  WeigherOptions weigher = weigher_options(options);
+  require_estimable(statistics.weighted, statistics.rows, options);
+  if (statistics.rows == SufficientStatistics::Rows::directions) weigher.estimate_variance = false, weigher.robust = Robust::none;
+  Terms terms = make_terms(statistics, kernel);
+  FitResult result = fit_terms(terms, statistics.channels, options, weigher, statistics.correlated);
+  result.metric = statistics.metric;
+  if (statistics.n_outliers > 0) {
+    result.weighting.n_outliers += statistics.n_outliers;
+    result.weighting.robust = weigher.robust;
+    result.weighting.reason = "the means of table rows were made without values far from the others of their row";
+  }
+  if (!result.values.empty()) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const auto chi2_per_dof = result.errors.chi2_per_dof;
+    result.errors = {unknown, unknown, unknown, unknown, unknown, chi2_per_dof};
+    const std::array errors{&result.errors.linear, &result.errors.linear_cos, &result.errors.log, &result.errors.log1p,
+                            &result.errors.cbrt};
+    if (!statistics.weighted)
+      *errors[static_cast<std::size_t>(statistics.metric)] = rms_of_rows(make_terms(statistics, kernel), result.values);
+  }
   result.fit_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

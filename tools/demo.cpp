@@ -12,9 +12,9 @@
 #include "fitting/checks/checks.hpp"
 #include "tools/bench_source.hpp"
 #include "tools/brdf_source.hpp"
+#include "tools/fit_document.hpp"
 #include "tools/lobe_picture.hpp"
 #include "tools/measure.hpp"
-#include "tools/fit_document.hpp"
 #include "tools/reduced_run.hpp"
 #include "tools/verbs.hpp"
 

@@ -8,6 +8,7 @@
 #include "tools/fit_batch.hpp"
 #include "tools/fit_choice.hpp"
 #include "tools/fit_job.hpp"
+#include "tools/fit_merge.hpp"
 #include "tools/verbs.hpp"
 
 namespace gonio::tools {
@@ -58,12 +59,13 @@ int fit_verb(const Arguments& arguments, Console& console) {
   FitFlags flags;
   ChoiceFlags choice;
   BatchOptions batch;
-  bool together = false, lines = false;
+  bool together = false, merge = false, lines = false;
   app.add_option("FILE", names, "Any readable BRDF files, or folders of them");
   app.add_option("--files-from", list, "More files, one a line; - reads standard input");
   flags.add_to(app);
   choice.add_to(app);
   app.add_flag("--together", together, "One fit of all files");
+  app.add_flag("--merge", merge, "FILE are statistics of gonio collapse: one fit of all their samples");
   app.add_flag("--lines", lines, "JSON lines for a single file too");
   app.add_option("--jobs", batch.jobs, "Files fitted at a time (default: as many as processors)")->check(CLI::PositiveNumber);
   app.add_option("--out", batch.out, "Write the JSON document, or the JSON lines, to this file");
@@ -81,6 +83,11 @@ int fit_verb(const Arguments& arguments, Console& console) {
   const std::vector<std::string> files = expand_folders(names);
   if (files.empty()) throw Error(ErrorKind::usage, {"gonio fit", "no file", "FILE, or a folder with measurements in it"});
   if (batch.resume && batch.out.empty()) throw Error(ErrorKind::usage, {"--resume", "no --out", "the file of JSON lines to go on with"});
+  if (merge) {
+    if (lines || together || batch.resume || batch.ordered || !models.empty())
+      throw Error(ErrorKind::usage, {"--merge", "a batch or several models", "one model for all statistics together"});
+    return fit_merged(files, request, batch.out, console);
+  }
   if (!models.empty()) {
     if (lines || batch.resume || batch.ordered || (files.size() > 1 && !together))
       throw Error(ErrorKind::usage, {"--model", "several models for many files", "one file, or --together; or a single model"});

@@ -100,6 +100,10 @@ Json weighting_document(const fitting::FitResult& result) {
   for (const fitting::Outlier& outlier : weighting.outliers)
     outliers.push_back(Json::object({{"sample", static_cast<std::int64_t>(outlier.sample)},
                                      {"channel", result.channels[outlier.channel].name},
+                                     {"theta_i_deg", outlier.angles.theta_i.degrees()},
+                                     {"phi_i_deg", outlier.angles.phi_i.degrees()},
+                                     {"theta_o_deg", outlier.angles.theta_o.degrees()},
+                                     {"phi_o_deg", outlier.angles.phi_o.degrees()},
                                      {"value", outlier.value},
                                      {"fitted", outlier.fitted},
                                      {"z", outlier.z}}));
@@ -192,10 +196,16 @@ std::vector<std::string> fit_lines(const fitting::FitResult& result) {
     const std::string value = p.sigma && *p.sigma > 0 ? with_uncertainty(p.value, *p.sigma) : fmt::format("{:.6g}", p.value);
     lines.push_back(fmt::format("  {:<8} {:<8} {:<26} {}", p.name, channel, value, interval_text(p)));
   }
-  const auto& e = result.errors;
-  lines.push_back(fmt::format("  rms error: linear {:.4g}, linear-cos {:.4g}, log {:.4g}, log1p {:.4g}, cbrt {:.4g}{}", e.linear,
-                              e.linear_cos, e.log, e.log1p, e.cbrt,
-                              e.chi2_per_dof ? fmt::format("; chi2 per degree of freedom {:.3f}", *e.chi2_per_dof) : ""));
+  std::string errors;
+  for (const auto& [metric, error] : {std::pair{"linear", result.errors.linear},
+                                      {"linear-cos", result.errors.linear_cos},
+                                      {"log", result.errors.log},
+                                      {"log1p", result.errors.log1p},
+                                      {"cbrt", result.errors.cbrt}})
+    if (!std::isnan(error)) errors += fmt::format("{}{} {:.4g}", errors.empty() ? "  rms error: " : ", ", metric, error);
+  if (result.errors.chi2_per_dof)
+    errors += fmt::format("{}chi2 per degree of freedom {:.3f}", errors.empty() ? "  " : "; ", *result.errors.chi2_per_dof);
+  if (!errors.empty()) lines.push_back(errors);
   if (const std::string line = weighting_line(result); !line.empty()) lines.push_back(line);
   for (const auto& minimum : result.other_minima)
     lines.push_back(

@@ -25,7 +25,7 @@ struct Entry {
   Verb run;
 };
 
-constexpr std::array<Entry, 13> verbs{{
+constexpr std::array<Entry, 14> verbs{{
     {"demo", "the whole chain on the embedded simulated bench: sweep, reduce, fit, check, export, picture", demo_verb},
     {"plan", "what a sweep would do: reachability, order, predicted time; moves nothing", plan_verb},
     {"serve", "emulate a bench's devices until stopped", serve_verb},
@@ -33,6 +33,7 @@ constexpr std::array<Entry, 13> verbs{{
     {"reduce", "raw readings -> samples with uncertainty", reduce_verb},
     {"import", "any supported format -> ours", import_verb},
     {"fit", "parameters of a model, with intervals", fit_verb},
+    {"collapse", "samples -> what a fit needs of them, to be merged with that of others", collapse_verb},
     {"check", "reciprocity, isotropy, energy, positivity", check_verb},
     {"compare", "two BRDFs: every metric, where they differ most, pictures", compare_verb},
     {"export", "table or fit -> a renderer's format", export_verb},

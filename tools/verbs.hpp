@@ -11,6 +11,7 @@ using Verb = int (*)(const Arguments& arguments, Console& console);
 
 int check_verb(const Arguments& arguments, Console& console);
 int compare_verb(const Arguments& arguments, Console& console);
+int collapse_verb(const Arguments& arguments, Console& console);
 int demo_verb(const Arguments& arguments, Console& console);
 int eval_verb(const Arguments& arguments, Console& console);
 int export_verb(const Arguments& arguments, Console& console);
