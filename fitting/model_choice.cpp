@@ -118,7 +118,7 @@ class Choice {
     folds_ = incidence_folds(*observations_, options_.max_folds);
     keep_ = thinned(folds_.of_sample.size());
     samples_ = gather(*observations_, keep_, folds_.of_sample);
-    noise_ = noise_level(samples_);
+    noise_ = noise_level(*observations_, samples_);
     fit_all();
     cross_validate();
     add_criteria();

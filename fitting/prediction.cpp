@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
+#include <limits>
 
+#include "fitting/repeats.hpp"
 #include "fitting/transform.hpp"
 
 namespace gonio::fitting {
 namespace {
 
 constexpr std::size_t least_repeats = 10;
-constexpr double same_direction_deg = 1e-4;
 
 bool known(double u) { return u > 0 && std::isfinite(u); }
 
@@ -63,9 +62,6 @@ Samples gather(const Observations& observations, const std::vector<std::uint8_t>
   bool has_u = true;
   for (std::size_t b = 0; b < observations.block_count(); ++b) has_u = has_u && observations.block(b).u.size() == channels;
   if (has_u) out.u.resize(channels);
-  std::map<std::tuple<long, long, long, long>, std::size_t> places;
-  const auto rounded = [](Angle angle) { return std::lround(angle.degrees() / same_direction_deg); };
-  std::vector<GonioAngles> angles;
   std::vector<LobeGeometry> geometry;
   std::vector<std::size_t> kept;
   std::size_t first = 0;
@@ -74,19 +70,14 @@ Samples gather(const Observations& observations, const std::vector<std::uint8_t>
     kept.clear();
     for (std::size_t k = 0; k < block.size; ++k)
       if (keep[first + k] && block.valid(k)) kept.push_back(k);
-    if (!kept.empty()) {
-      observations.geometry_of(b, kept, geometry);
-      observations.angles(b, angles);
-    }
+    if (!kept.empty()) observations.geometry_of(b, kept, geometry);
     for (std::size_t j = 0; j < kept.size(); ++j) {
       const std::size_t k = kept[j];
       const bool measured = std::any_of(block.f.begin(), block.f.end(), [&](const Column& f) { return std::isfinite(f[k]); });
       if (!measured || geometry[j].cos_i < 0 || geometry[j].cos_o < 0) continue;
       out.geometry.push_back(geometry[j]);
       out.group.push_back(group[first + k]);
-      const GonioAngles& a = angles[k];
-      const auto entry = places.try_emplace({rounded(a.theta_i), rounded(a.phi_i), rounded(a.theta_o), rounded(a.phi_o)}, places.size());
-      out.place.push_back(entry.first->second);
+      out.number.push_back(first + k);
       for (std::size_t c = 0; c < channels; ++c) {
         out.f[c].push_back(block.f[c][k]);
         if (has_u) out.u[c].push_back(block.u[c][k]);
@@ -167,7 +158,7 @@ Likelihood likelihood(const Samples& samples, const ModelInfo& model, const std:
   return out;
 }
 
-NoiseLevel noise_level(const Samples& samples) {
+NoiseLevel noise_level(const Observations& observations, const Samples& samples) {
   double noise2_cos = 0, noise2_cbrt = 0, count = 0;
   if (carries_uncertainty(samples)) {
     for (std::size_t c = 0; c < samples.f.size(); ++c)
@@ -181,29 +172,25 @@ NoiseLevel noise_level(const Samples& samples) {
     return over_norm(NoiseLevel::Source::stated, noise2_cos, noise2_cbrt, count, samples);
   }
   // Centred squares inside groups of equal directions; a group of n has n - 1 degrees of freedom.
-  struct Group {
-    double n = 0, mean_cos = 0, square_cos = 0, mean_cbrt = 0, square_cbrt = 0;
-  };
-  for (const auto& column : samples.f) {
-    std::map<std::size_t, Group> groups;
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-      if (!std::isfinite(column[k])) continue;
-      Group& group = groups[samples.place[k]];
-      group.n += 1;
-      const auto add = [&](double value, double& mean, double& square) {
+  for (const RepeatedReadings& numbers : repeated_readings(observations))
+    for (const auto& column : samples.f) {
+      double n = 0, mean_cos = 0, mean_cbrt = 0;
+      const auto add = [&](double value, double& mean, double& squares) {
         const double from_old = value - mean;
-        mean += from_old / group.n;
-        square += from_old * (value - mean);
+        mean += from_old / n;
+        squares += from_old * (value - mean);
       };
-      add(column[k] * samples.geometry[k].cos_i, group.mean_cos, group.square_cos);
-      add(std::cbrt(column[k]), group.mean_cbrt, group.square_cbrt);
+      for (const std::size_t number : numbers) {
+        const auto found = std::lower_bound(samples.number.begin(), samples.number.end(), number);
+        if (found == samples.number.end() || *found != number) continue;
+        const auto k = static_cast<std::size_t>(found - samples.number.begin());
+        if (!std::isfinite(column[k])) continue;
+        n += 1;
+        add(column[k] * samples.geometry[k].cos_i, mean_cos, noise2_cos);
+        add(std::cbrt(column[k]), mean_cbrt, noise2_cbrt);
+      }
+      count += std::max(0.0, n - 1);
     }
-    for (const auto& [place, group] : groups) {
-      noise2_cos += group.square_cos;
-      noise2_cbrt += group.square_cbrt;
-      count += group.n - 1;
-    }
-  }
   if (count < static_cast<double>(least_repeats)) return {};
   return over_norm(NoiseLevel::Source::repeats, noise2_cos, noise2_cbrt, count, samples);
 }

@@ -20,7 +20,7 @@ struct Samples {
   std::vector<LobeGeometry> geometry;
   std::vector<std::vector<double>> f, u;  ///< [channel][sample] 1/sr, NaN where there is none; u empty where unknown throughout
   std::vector<std::uint8_t> group;        ///< whose prediction counts together, e.g. the fold of cross-validation
-  std::vector<std::size_t> place;         ///< samples of equal value were measured at the same directions
+  std::vector<std::size_t> number;        ///< of the sample, through all blocks in order; ascending
 
   std::size_t size() const noexcept { return geometry.size(); }
 };
@@ -58,7 +58,8 @@ struct NoiseLevel {
   Source source = Source::unknown;
   double linear_cos = 0, cbrt = 0;  ///< 0 where unknown
 };
-/// From u where at least half of the values have it, else from repeated directions (at least ten repeats), else unknown.
-NoiseLevel noise_level(const Samples& samples);
+/// From u where at least half of the values have it, else from repeated readings of the observations the samples were gathered from (at
+/// least ten repeats), else unknown.
+NoiseLevel noise_level(const Observations& observations, const Samples& samples);
 
 }  // namespace gonio::fitting

@@ -33,16 +33,14 @@ int collapse_verb(const Arguments& arguments, Console& console) {
   shard.masked = input.masked;
   shard.simulated = input.simulated;
   shard.options = request.options;
+  const Json document = statistics_document(shard, context(shard.inputs, std::nullopt, shard.simulated));
+  write_file_atomically(out, document.dump(-1) + "\n");
   const fitting::SufficientStatistics& statistics = shard.statistics;
-  write_file_atomically(out, statistics_document(shard, context(shard.inputs, std::nullopt, shard.simulated)).dump(-1) + "\n");
-  const std::string line = fmt::format("{}: {} samples in {} rows over {}", out, statistics.n_observations, statistics.row_count(),
-                                       fitting::name(statistics.depends_on));
   if (console.json)
-    console.print_json(Json::object({{"out", out},
-                                     {"n_observations", static_cast<std::int64_t>(statistics.n_observations)},
-                                     {"n_rows", static_cast<std::int64_t>(statistics.row_count())}}));
+    console.print_json(document);
   else
-    console.print(line);
+    console.print(fmt::format("{}: {} samples in {} rows over {}", out, statistics.n_observations, statistics.row_count(),
+                              fitting::name(statistics.depends_on)));
   return 0;
 }
 

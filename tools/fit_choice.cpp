@@ -28,6 +28,12 @@ std::string member_name(fitting::Metric metric) {
   return out;
 }
 
+/// A global search over more parameters takes minutes a fit.
+constexpr std::size_t most_nonlinear_of_all = 3;
+
+/// Of the best models; the document has all of them.
+constexpr std::size_t most_hints = 3;
+
 Json count(std::size_t n) { return static_cast<std::int64_t>(n); }
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
@@ -99,7 +105,8 @@ std::vector<std::string> several_models(const std::string& text) {
   };
   for (const std::string& part : comma_separated(text))
     if (part == "all") {
-      for (const ModelInfo& info : model_infos()) add(info.name);
+      for (const ModelInfo& info : model_infos())
+        if (info.nonlinear_count() <= most_nonlinear_of_all) add(info.name);
     } else {
       add(model_info(part).name);
     }
@@ -154,8 +161,9 @@ std::vector<std::string> choice_lines(const fitting::ModelChoice& choice) {
                                 cell(above_least(choice, &Candidate::bic, c), "{:+.1f}"), c.free_parameters, c.adequate ? "  adequate" : "",
                                 c.reason.empty() ? "" : "  (" + c.reason + ")"));
   }
+  std::size_t hints = 0;
   for (const Candidate& c : choice.candidates)
-    if (!c.hint.empty()) lines.push_back(c.model + ": " + c.hint);
+    if (!c.hint.empty() && hints++ < most_hints) lines.push_back(c.model + ": " + c.hint);
   lines.push_back(choice.verdict);
   if (choice.simplest && choice.simplest != choice.best)
     lines.push_back(*choice.simplest + " is as good as " + *choice.best + " to one standard error, with fewer parameters");

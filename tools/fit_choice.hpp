@@ -17,8 +17,8 @@ struct ChoiceFlags {
   void add_to(CLI::App& app);
 };
 
-/// The models that --model names: a list separated by commas, in which `all` stands for every model of the list; several, or none where
-/// --model names a single one.
+/// The models that --model names: a list separated by commas, in which `all` stands for every model of the list with at most three
+/// nonlinear parameters; several, or none where --model names a single one.
 std::vector<std::string> several_models(const std::string& text);
 
 /// Tries them on all files together and writes the choice (data-schemas/choice.schema.json). 0, or 1 if no model could be fitted.

@@ -51,7 +51,7 @@ TEST_CASE("groups add up to the whole, and a prediction of 0 has no logarithm") 
 TEST_CASE("noise is what the data state, or what their repeats show, or unknown") {
   const auto angles = test::polar_grid({20, 50}, 5, 20);
   const auto stated = test::readings(test::lobe("lambert+blinn-phong", 0.2, 0.0, 20), angles, {.relative = 0.03}, 5);
-  const NoiseLevel by_u = noise_level(all_of(stated));
+  const NoiseLevel by_u = noise_level(*observe(stated), all_of(stated));
   CHECK(by_u.source == NoiseLevel::Source::stated);
   CHECK(by_u.linear_cos == Approx(0.03).epsilon(0.02));
   CHECK(3 * by_u.cbrt == Approx(0.03).epsilon(0.02));
@@ -61,14 +61,14 @@ TEST_CASE("noise is what the data state, or what their repeats show, or unknown"
   twice->angles.insert(twice->angles.end(), angles.begin(), angles.end());
   twice->f[0].insert(twice->f[0].end(), again->f[0].begin(), again->f[0].end());
   twice->u.clear();
-  const NoiseLevel by_repeats = noise_level(all_of(twice));
+  const NoiseLevel by_repeats = noise_level(*observe(twice), all_of(twice));
   CHECK(by_repeats.source == NoiseLevel::Source::repeats);
   CHECK(by_repeats.linear_cos == Approx(0.03).epsilon(0.1));
   CHECK(3 * by_repeats.cbrt == Approx(0.03).epsilon(0.1));
 
   auto bare = std::make_shared<Dataset>(*stated);
   bare->u.clear();
-  CHECK(noise_level(all_of(bare)).source == NoiseLevel::Source::unknown);
+  CHECK(noise_level(*observe(bare), all_of(bare)).source == NoiseLevel::Source::unknown);
 }
 
 TEST_CASE("the likelihood prefers the truth by chi squared, or by the logarithm of the squares") {
