@@ -81,17 +81,31 @@ class InterpolationVariance {
   std::vector<double> upper_, value_;
 };
 
-std::vector<Residual> neighbour_residuals(const Channelled& data, const LocalInterpolation& interpolation, std::vector<double>& scatter) {
+/// The weights of every reading's neighbours at other incidences, and of its partner's surroundings: the same for every channel that
+/// has a value in the same samples.
+struct Surroundings {
+  std::vector<std::size_t> sample;
+  std::vector<std::optional<LocalInterpolation::Weights>> own, partner;
+
+  explicit Surroundings(const Channelled& data) : sample(data.sample) {
+    const LocalInterpolation interpolation(data.angles);
+    for (std::size_t r = 0; r < data.angles.size(); ++r) {
+      // A partner's incidence was hardly ever measured: leave out all of this one's, or the error between incidences stays unseen.
+      const double theta_i = data.angles[r].theta_i.radians();
+      own.push_back(interpolation.at(data.angles[r], [&](std::size_t other) {
+        return other == r || std::abs(data.angles[other].theta_i.radians() - theta_i) <= same_direction_rad;
+      }));
+      partner.push_back(interpolation.at(exchanged(data.angles[r])));
+    }
+  }
+};
+
+std::vector<Residual> neighbour_residuals(const Channelled& data, const Surroundings& surroundings, std::vector<double>& scatter) {
   std::vector<Residual> residuals;
   for (std::size_t r = 0; r < data.readings.size(); ++r) {
-    // A partner's incidence was hardly ever measured: leave out all of this one's, or the error between incidences stays unseen.
-    const double theta_i = data.angles[r].theta_i.radians();
-    const auto weights = interpolation.at(data.angles[r], [&](std::size_t other) {
-      return other == r || std::abs(data.angles[other].theta_i.radians() - theta_i) <= same_direction_rad;
-    });
-    if (!weights) continue;
+    if (!surroundings.own[r]) continue;
     double c = 0, variance = 0;
-    for (const auto& [reading, weight] : difference(data, r, *weights)) {
+    for (const auto& [reading, weight] : difference(data, r, *surroundings.own[r])) {
       c += weight * data.readings[reading].f;
       variance += weight * weight * data.readings[reading].u * data.readings[reading].u;
     }
@@ -119,15 +133,16 @@ InterpolatedPairs interpolated_partners(const std::vector<std::shared_ptr<const 
     const auto model = fitted_model(datasets[d]);
     const std::vector<double> time = parts_of_time(dataset);
     out.with_model = out.with_model && model;
+    std::optional<Surroundings> surroundings;
     for (std::size_t c = 0; c < dataset.channels.size(); ++c) {
       Channelled data = readings_of(dataset, c, model.get(), first[d], first.back());
-      const LocalInterpolation interpolation(data.angles);
-      const InterpolationVariance error(neighbour_residuals(data, interpolation, scatter));
+      if (!surroundings || surroundings->sample != data.sample) surroundings.emplace(data);
+      const InterpolationVariance error(neighbour_residuals(data, *surroundings, scatter));
       if (!error.known()) continue;
       const std::size_t base = out.set.readings.size();
       for (std::size_t r = 0; r < data.readings.size(); ++r) {
         const GonioAngles partner = exchanged(data.angles[r]);
-        const auto weights = interpolation.at(partner);
+        const auto& weights = surroundings->partner[r];
         if (!weights) continue;
         Contrast contrast;
         contrast.terms = difference(data, r, *weights);

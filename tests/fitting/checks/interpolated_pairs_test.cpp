@@ -85,3 +85,22 @@ TEST_CASE("A dense grid of few incidences knows what it cannot interpolate: reci
   INFO(check.detail);
   CHECK(check.verdict != Verdict::fail);
 }
+
+TEST_CASE("A goniometer's grid, fine in wo and coarse in theta_i, has its partners interpolated between incidences") {
+  std::vector<GonioAngles> angles;
+  for (double theta = 7.3; theta < 80; theta += 9)
+    for (const GonioAngles& a : polar_grid({theta}, 4, 10)) angles.push_back(a);
+  for (const double s : {10., 100.}) {
+    const AnalyticBrdf truth = lobe("blinn-phong", .3, .2, s);
+    const auto data = readings(truth, angles, percent, 3);
+    const Check fair = run(check_reciprocity, data);
+    for (std::size_t k = 0; k < angles.size(); ++k) data->f[0][k] *= 1 + .05 * (angles[k].theta_i.cos() - angles[k].theta_o.cos());
+    const Check skewed = run(check_reciprocity, data);
+    INFO(s << ": " << fair.detail << " / " << skewed.detail);
+    CHECK(fair.n > 1000);
+    CHECK(fair.verdict == Verdict::pass);
+    CHECK(*fair.statistic / static_cast<double>(fair.n) > .9);
+    CHECK(*fair.statistic / static_cast<double>(fair.n) < 1.1);
+    CHECK(skewed.verdict == Verdict::fail);
+  }
+}
