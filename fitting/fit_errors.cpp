@@ -68,4 +68,24 @@ FitErrors fit_errors(const Observations& observations, const ModelKernel& kernel
   return {rms(0), rms(1), rms(2), rms(3), rms(4), std::nullopt};
 }
 
+double rms_of_rows(const Terms& terms, const std::vector<std::vector<double>>& values) {
+  const std::size_t linear = terms.kernel.linear;
+  double squares = 0, count = 0;
+  std::vector<double> columns(linear * terms.rows());
+  for (std::size_t c = 0; c < terms.channel.size(); ++c) {
+    const ChannelTerms& data = terms.channel[c];
+    terms.basis(0, terms.rows(), values[c].data() + linear, columns.data(), terms.rows());
+    for (std::size_t row = 0; row < terms.rows(); ++row) {
+      double fitted = 0;
+      for (std::size_t k = 0; k < linear; ++k) fitted += values[c][k] * columns[k * terms.rows() + row];
+      if (!(data.weight[row] > 0)) continue;
+      const double residual = terms.transform.value(fitted, terms.geometry[row].cos_i) - data.target[row];
+      squares += data.weight[row] * residual * residual;
+    }
+    squares += data.within;
+    count += static_cast<double>(data.count);
+  }
+  return count > 0 ? std::sqrt(squares / count) : 0.0;
+}
+
 }  // namespace gonio::fitting

@@ -4,6 +4,7 @@
 
 #include "fitting/fit.hpp"
 #include "fitting/model_kernel.hpp"
+#include "fitting/terms.hpp"
 
 namespace gonio::fitting {
 
@@ -12,5 +13,8 @@ namespace gonio::fitting {
 /// percent. `chi2_per_dof` is left alone.
 FitErrors fit_errors(const Observations& observations, const ModelKernel& kernel, const std::vector<std::vector<double>>& values,
                      int threads);
+
+/// Root mean square of the residuals of rows whose weights are 1 (cos² θi under linear-cos), from their sums: exact for collapsed rows.
+double rms_of_rows(const Terms& terms, const std::vector<std::vector<double>>& values);
 
 }  // namespace gonio::fitting
