@@ -13,8 +13,9 @@ namespace gonio::fitting {
 
 /// Root mean square of the residuals B - A under one metric. The metrics of `Metric` count every sample alike (under quadrature by its
 /// measure dwi dwo) and say how far B as a fit of A is off; `ngan` is Ngan, Durand and Matusik's "Experimental Analysis of BRDF Models"
-/// (EGSR 2005): ((f_B - f_A) cos theta_i)² with solid-angle weights (sin theta_i sin theta_o for samples, which an angular grid makes
-/// exact), both zenith angles at most 80°. Trap: a plain sum over MERL's cells is another metric, heavy on the highlight.
+/// (EGSR 2005): ((f_B - f_A) cos theta_i)² with solid-angle weights (for samples sin theta_i sin theta_o, right
+/// on a grid of equal angular steps), both zenith angles at most 80°. Trap: a plain sum over MERL's cells is another metric, heavy on the
+/// highlight.
 struct MetricError {
   std::string metric;                  ///< linear, linear-cos, log, log1p, cbrt, ngan
   std::optional<std::size_t> channel;  ///< position in `ComparedValues::channels`; none: all together

@@ -40,38 +40,24 @@ const std::string rt300s_columns =
 
 }  // namespace
 
-TEST_CASE("RT-300S EC1, raw minus blank: published means at receive 0 and in-plane ratios of partners") {
+TEST_CASE("RT-300S EC1, raw minus blank, has its published means at receive 0") {
   const std::string file = measured("loft_rt300s/raw_csv/ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
   if (file.empty()) return;
   const Dataset data = imported(file, rt300s_columns + " --blank " + measured("loft_rt300s/raw_csv/blank_v2o0_20250911.csv"));
   CHECK(data.size() == 2508);
 
   std::map<double, std::pair<double, int>> at_normal;
-  std::map<std::array<int, 3>, double> in_plane;  // incidence, receive, 1 on the specular side; means of both arms' ways there
   for (std::size_t k = 0; k < data.size(); ++k) {
     const GonioAngles& a = data.angles[k];
     if (a.theta_o.degrees() == 0) {
       at_normal[a.theta_i.degrees()].first += data.f[0][k];
       ++at_normal[a.theta_i.degrees()].second;
     }
-    const double turn = std::fabs(std::remainder(a.phi_o.degrees() - a.phi_i.degrees(), 360));
-    if (turn == 180 || turn == 0) in_plane[{int(a.theta_i.degrees()), int(a.theta_o.degrees()), turn == 180 ? 1 : 0}] += 0.5 * data.f[0][k];
   }
   REQUIRE(at_normal.size() == 4);
   constexpr double tenth_of_a_percent = 1e-3;
   for (const auto& [incidence, mean] : std::map<double, double>{{10, 0.03246}, {30, 0.02044}, {50, 0.01195}, {70, 0.00851}})
     CHECK(std::fabs(at_normal[incidence].first / at_normal[incidence].second / mean - 1) < tenth_of_a_percent);
-
-  const auto ratio = [&](int a, int b, int side) { return in_plane.at({a, b, side}) / in_plane.at({b, a, side}); };
-  constexpr double printed_digits = 6e-4;
-  CHECK(std::fabs(ratio(10, 30, 1) - 0.907) < printed_digits);
-  CHECK(std::fabs(ratio(10, 50, 1) - 0.915) < printed_digits);
-  CHECK(std::fabs(ratio(30, 50, 1) - 0.947) < printed_digits);
-  CHECK(std::fabs(ratio(50, 70, 1) - 0.900) < printed_digits);
-  for (const auto& [a, b] : {std::pair{10, 30}, {10, 50}, {30, 50}, {50, 70}}) {
-    CHECK(ratio(a, b, 0) > 0.965);
-    CHECK(ratio(a, b, 0) < 1.065);
-  }
 }
 
 TEST_CASE("CEA's retro-reflective tape imports without flags: rows at 90 degrees masked, two peaks of different nature") {
