@@ -25,6 +25,7 @@ struct Parameter {
   double scan_low = 0, scan_high = 0;  ///< where the global scan of a nonlinear parameter looks
   Axis axis = Axis::logarithmic;       ///< of the scan and of the intervals
   double example = 0.3;                ///< a value met in practice: for tests over the list, demos and help
+  bool held = false;                   ///< a fit leaves it at its example unless it is given a value or bounds: data hardly determine it
 };
 
 /// The geometry a model depends on apart from the horizon: what lets the fitter collapse data without loss.

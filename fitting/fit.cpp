@@ -59,7 +59,8 @@ SolveOptions solve_options(const FitOptions& options, const ModelKernel& kernel,
     const auto held = options.fixed.find(std::string(parameter.name));
     const auto bounds = options.bounds.find(std::string(parameter.name));
     const bool bounded = bounds != options.bounds.end();
-    return Wanted{held == options.fixed.end() ? none : held->second, bounded ? bounds->second.low : none,
+    const double at_rest = parameter.held && !bounded ? parameter.example : none;
+    return Wanted{held == options.fixed.end() ? at_rest : held->second, bounded ? bounds->second.low : none,
                   bounded ? bounds->second.high : none};
   };
   SolveOptions out;

@@ -42,7 +42,7 @@ struct FitOptions {
   Weights weights = Weights::automatic;
   std::optional<Robust> robust;          ///< unset: automatic where the weights are automatic and the metric is unset, else none
   bool per_channel = false;              ///< nonlinear parameters per channel too
-  std::map<std::string, double> fixed;   ///< parameters held at a value
+  std::map<std::string, double> fixed;   ///< parameters held at a value; those the model holds of itself, at another (Parameter::held)
   std::map<std::string, Bounds> bounds;  ///< narrower than the model's, for any parameter that is not fixed
   double confidence = 0.95;              ///< of the profile intervals
   int threads = 2;

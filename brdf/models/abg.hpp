@@ -17,6 +17,7 @@ struct Abg {
                                                         {"a", "1/sr", 0, 1e9, true, 0, 0, Parameter::Axis::logarithmic, 0.02},
                                                         {"b", "1", 1e-15, 1e6, false, 1e-9, 10, Parameter::Axis::logarithmic, 0.01},
                                                         {"g", "1", 0.01, 20, false, 0.3, 6, Parameter::Axis::linear, 2}}};
+  static constexpr PeakName peak{"a/b", "1/sr", 1};
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true};
 

@@ -13,6 +13,7 @@ struct AshikhminShirley {
   static constexpr std::string_view name = "ashikhmin-shirley";
   static constexpr std::string_view citation = "M. Ashikhmin, P. Shirley, An Anisotropic Phong BRDF Model, JGT 5(2), 2000";
   static constexpr auto parameters = table(schlick_parameters, std::array{ashikhmin_exponent("n", 80)});
+  static constexpr PeakName peak{"f0 (n+1)", "1", 8 * std::numbers::pi};
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true};
 

@@ -12,6 +12,7 @@ struct AshikhminShirleyAnisotropic {
   static constexpr std::string_view name = "ashikhmin-shirley-anisotropic";
   static constexpr std::string_view citation = "M. Ashikhmin, P. Shirley, An Anisotropic Phong BRDF Model, JGT 5(2), 2000";
   static constexpr auto parameters = table(schlick_parameters, std::array{ashikhmin_exponent("nu", 200), ashikhmin_exponent("nv", 30)});
+  static constexpr PeakName peak{"f0 sqrt((nu+1)(nv+1))", "1", 8 * std::numbers::pi};
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, false, false};
 

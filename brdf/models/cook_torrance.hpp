@@ -16,6 +16,7 @@ struct CookTorrance {
       "Physically-Based Rendering, CGF 13(3), 1994";
   static constexpr auto parameters =
       table(schlick_parameters, std::array<Parameter, 1>{{{"m", "1", 1e-4, 10, false, 1e-3, 2, Parameter::Axis::logarithmic, 0.15}}});
+  static constexpr PeakName peak{"f0/m^2", "1", 4 * std::numbers::pi};
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true};
 

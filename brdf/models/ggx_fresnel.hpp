@@ -15,6 +15,7 @@ struct GgxFresnel {
       "B. Walter, S. R. Marschner, H. Li, K. E. Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007; E. Heitz, "
       "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs, JCGT 3(2), 2014";
   static constexpr auto parameters = table(one_lobe_parameters, std::array{ggx_roughness[0], refractive_index});
+  static constexpr PeakName peak{"rho_s ((n-1)/(n+1))^2/alpha^2", "1", 4 * std::numbers::pi};
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true};
 

@@ -14,6 +14,7 @@ struct GgxSeparable {
       "An "
       "Inexpensive BRDF Model for Physically-Based Rendering, CGF 13(3), 1994";
   static constexpr auto parameters = table(schlick_parameters, ggx_roughness);
+  static constexpr PeakName peak{"f0/alpha^2", "1", 4 * std::numbers::pi};
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true};
 

@@ -12,6 +12,7 @@ struct GgxSeparableFresnel {
   static constexpr std::string_view citation =
       "B. Walter, S. R. Marschner, H. Li, K. E. Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007";
   static constexpr auto parameters = table(one_lobe_parameters, std::array{ggx_roughness[0], refractive_index});
+  static constexpr PeakName peak{"rho_s ((n-1)/(n+1))^2/alpha^2", "1", 4 * std::numbers::pi};
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true};
 

@@ -19,6 +19,7 @@ struct HarveyShack {
                                                         {"b0", "1/sr", 0, 1e9, true, 0, 0, Parameter::Axis::logarithmic, 2},
                                                         {"l", "1", 1e-7, 100, false, 1e-5, 1, Parameter::Axis::logarithmic, 0.1},
                                                         {"s", "1", -20, 0, false, -6, -0.3, Parameter::Axis::linear, -2}}};
+  static constexpr PeakName peak{"b0", "1/sr", 1};
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true};
 

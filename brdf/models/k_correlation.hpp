@@ -19,6 +19,7 @@ struct KCorrelation {
                                                         {"a", "1/sr", 0, 1e9, true, 0, 0, Parameter::Axis::logarithmic, 2},
                                                         {"b", "1", 1e-3, 1e7, false, 1, 1e5, Parameter::Axis::logarithmic, 10},
                                                         {"c", "1", 0, 20, false, 0.2, 5, Parameter::Axis::linear, 1.5}}};
+  static constexpr PeakName peak{"a", "1/sr", 1};
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true};
 

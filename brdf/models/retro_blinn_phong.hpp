@@ -21,6 +21,7 @@ struct RetroBlinnPhong {
       "JOSA A 31(12), 2014; normalisation F. Giesen, Phong Normalization Factor Derivation, 2009";
   static constexpr std::array<Parameter, 3> parameters{
       {{"rho_d", "1", 0, 1e6, true}, {"rho_s", "1", 0, 1e6, true}, {"s", "1", 0, 1e9, false, 1e-3, 1e9, Parameter::Axis::logarithmic, 40}}};
+  static constexpr PeakName peak{"rho_s (s+2)(s+4)/(s+2^(-s/2))", "1", 8 * std::numbers::pi};
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true};
 

@@ -13,6 +13,7 @@ struct Ward {
   static constexpr std::string_view name = "ward";
   static constexpr std::string_view citation = "G. J. Ward, Measuring and Modeling Anisotropic Reflection, SIGGRAPH 1992";
   static constexpr auto parameters = table(one_lobe_parameters, std::array{ward_width("alpha", 0.15)});
+  static constexpr PeakName peak{"rho_s/alpha^2", "1", 4 * std::numbers::pi};
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true, false};
 

@@ -13,6 +13,7 @@ struct WardAnisotropic {
   static constexpr std::string_view name = "ward-anisotropic";
   static constexpr std::string_view citation = "G. J. Ward, Measuring and Modeling Anisotropic Reflection, SIGGRAPH 1992";
   static constexpr auto parameters = table(one_lobe_parameters, std::array{ward_width("alpha_x", 0.1), ward_width("alpha_y", 0.3)});
+  static constexpr PeakName peak{"rho_s/(alpha_x alpha_y)", "1", 4 * std::numbers::pi};
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, false, false, false};
 

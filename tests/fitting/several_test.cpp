@@ -207,3 +207,21 @@ TEST_CASE("95 % intervals of two lobes hold the truth in 95 % of data sets") {
     CHECK(halved[k] < 181);
   }
 }
+
+TEST_CASE("a parameter that data hardly determine is held at its example unless it is given a value or bounds") {
+  const AnalyticBrdf truth("abc", single_channel("Y"), {{.2, 30, 100, 1.2, 1.5}});
+  const auto observations = observe(readings(truth, lobe_angles(), {}, 1));
+  FitOptions options;
+  options.model = "abc";
+  const FitResult held = fit(*observations, options);
+  CHECK(parameter(held, "n").kind == IntervalKind::fixed);
+  CHECK(parameter(held, "n").value == 1.5);
+  CHECK(parameter(held, "b").value == Approx(100).epsilon(1e-5));
+  options.fixed = {{"n", 2.5}};
+  CHECK(parameter(fit(*observations, options), "n").value == 2.5);
+  options.fixed.clear();
+  options.bounds["n"] = {1.2, 3};
+  const FitResult free = fit(*observations, options);
+  CHECK(parameter(free, "n").kind != IntervalKind::fixed);
+  CHECK(parameter(free, "n").value == Approx(1.5).epsilon(1e-3));
+}
