@@ -84,8 +84,8 @@ void estimate(Solution& solution, const Profile& profile, const SearchSpace& spa
     constants += data.within;
     solution.signal_to_noise2 += data.weighted_value2;
     solution.count += data.count;
-    informative += static_cast<double>(
-        terms.collapsed ? std::count_if(data.weight.begin(), data.weight.end(), [](double w) { return w > 0; }) : data.count);
+    const auto rows = std::count_if(data.weight.begin(), data.weight.end(), [](double w) { return w > 0; });
+    informative += terms.collapsed ? static_cast<double>(rows) : static_cast<double>(data.count);
   }
   solution.chi2 = terms.pure_error ? solution.cost - constants : solution.cost;
   solution.chi2_dof = terms.pure_error ? informative - solution.free_parameters : solution.dof;
