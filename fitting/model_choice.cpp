@@ -17,7 +17,7 @@ namespace gonio::fitting {
 namespace {
 
 /// Enough samples that a model of a dozen parameters is held against thousands of each incidence.
-constexpr std::size_t most_samples = std::size_t{1} << 17;
+constexpr std::size_t most_samples = std::size_t{1} << 14;
 /// Scores nearer than this are one: the exponent itself is only refined to 1e-9.
 constexpr double tie = 1e-6;
 
@@ -37,6 +37,31 @@ std::vector<std::uint8_t> thinned(std::size_t samples) {
     keep[k] = (z ^ (z >> 31)) < limit;
   }
   return keep;
+}
+
+/// The kept measurements as a data set of their own, so that no fit of a fold has to walk through the whole table.
+std::shared_ptr<const Observations> copy_of(const Observations& observations, const std::vector<std::uint8_t>& keep) {
+  auto out = std::make_shared<Dataset>();
+  out->channels = observations.channels();
+  out->f.resize(out->channels.size());
+  bool has_u = true;
+  for (std::size_t b = 0; b < observations.block_count(); ++b) has_u = has_u && observations.block(b).u.size() == out->channels.size();
+  if (has_u) out->u.resize(out->channels.size());
+  std::vector<GonioAngles> angles;
+  for (std::size_t b = 0, first = 0; b < observations.block_count(); ++b) {
+    const ObservationBlock block = observations.block(b);
+    observations.angles(b, angles);
+    for (std::size_t k = 0; k < block.size; ++k) {
+      if (!keep[first + k] || !block.valid(k)) continue;
+      out->angles.push_back(angles[k]);
+      for (std::size_t c = 0; c < out->f.size(); ++c) {
+        out->f[c].push_back(block.f[c][k]);
+        if (has_u) out->u[c].push_back(block.u[c][k]);
+      }
+    }
+    first += block.size;
+  }
+  return observe(out);
 }
 
 /// A fit, or why there is none.
@@ -115,10 +140,12 @@ class Choice {
 
   ModelChoice run() {
     const auto begin = std::chrono::steady_clock::now();
-    folds_ = incidence_folds(*observations_, options_.max_folds);
-    keep_ = thinned(folds_.of_sample.size());
-    samples_ = gather(*observations_, keep_, folds_.of_sample);
-    noise_ = noise_level(*observations_, samples_);
+    const std::vector<std::uint8_t> keep = thinned(sample_count(*observations_));
+    const bool all = std::find(keep.begin(), keep.end(), 0) == keep.end();
+    part_ = all ? observations_ : copy_of(*observations_, keep);
+    folds_ = incidence_folds(*part_, options_.max_folds);
+    samples_ = gather(*part_, std::vector<std::uint8_t>(folds_.of_sample.size(), 1), folds_.of_sample);
+    noise_ = noise_level(*part_, samples_);
     fit_all();
     cross_validate();
     add_criteria();
@@ -163,9 +190,9 @@ class Choice {
     if (folds_.count < 2) return;
     std::vector<std::shared_ptr<const Observations>> without;
     for (std::size_t fold = 0; fold < folds_.count; ++fold) {
-      std::vector<std::uint8_t> keep = keep_;
-      for (std::size_t k = 0; k < keep.size(); ++k) keep[k] = keep[k] && folds_.of_sample[k] != Folds::none && folds_.of_sample[k] != fold;
-      without.push_back(subset(observations_, std::move(keep)));
+      std::vector<std::uint8_t> keep;
+      for (const std::uint8_t of_sample : folds_.of_sample) keep.push_back(of_sample != Folds::none && of_sample != fold);
+      without.push_back(subset(part_, std::move(keep)));
     }
     std::vector<std::string> failed(candidates_.size() * folds_.count);
     for_each_index(failed.size(), options_.jobs, [&](std::size_t task) {
@@ -206,7 +233,8 @@ class Choice {
     for (std::size_t m = 0; m < candidates_.size(); ++m) {
       const Candidate& candidate = candidates_[m];
       if (!candidate.ranked) continue;
-      likelihoods[m] = likelihood(samples_, model_info(candidate.model), candidate.fit.values, options_.fit.metric.value_or(Metric::linear));
+      likelihoods[m] =
+          likelihood(samples_, model_info(candidate.model), candidate.fit.values, options_.fit.metric.value_or(Metric::linear));
       const double dof = static_cast<double>(likelihoods[m].n) - static_cast<double>(candidate.free_parameters);
       if (dof >= 1) inflation = std::min(inflation, likelihoods[m].minus_two_log / dof);
     }
@@ -332,7 +360,7 @@ class Choice {
   std::shared_ptr<const Observations> observations_;
   const ChoiceOptions& options_;
   Folds folds_;
-  std::vector<std::uint8_t> keep_;
+  std::shared_ptr<const Observations> part_;  ///< what is cross-validated: all samples, or of many an even part
   Samples samples_;
   NoiseLevel noise_;
   std::vector<Candidate> candidates_;

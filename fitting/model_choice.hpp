@@ -69,7 +69,7 @@ struct ModelChoice {
 
 /// Fits every model to all samples and again without each fold of incidences (incidence_folds.hpp), holds the second fits against what
 /// they have not seen, under all metrics, and ranks. A model that cannot be set up or does not converge is listed with its reason.
-/// Above 2^17 samples cross-validation uses an even, pseudo-random part of about that size; the fits to all samples use all.
+/// Above 2^14 samples cross-validation uses an even, pseudo-random part of about that size; the fits to all samples use all.
 /// Error(usage) for an unknown model, Error(interrupted) when stopped.
 ModelChoice choose_model(std::shared_ptr<const Observations> observations, const ChoiceOptions& options);
 
