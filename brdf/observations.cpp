@@ -64,6 +64,18 @@ void Observations::geometry_of(std::size_t index, std::span<const std::size_t> s
   for (const std::size_t sample : samples) out.push_back(all[sample]);
 }
 
+void Observations::facet_geometry(std::size_t index, FacetGeometry& out) const {
+  std::vector<LobeGeometry> all;
+  geometry(index, all);
+  for (auto* column : {&out.tan2_h, &out.cos_i, &out.cos_o, &out.cos_d}) column->resize(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    out.tan2_h[k] = static_cast<float>(all[k].tan2_h);
+    out.cos_i[k] = static_cast<float>(all[k].cos_i);
+    out.cos_o[k] = static_cast<float>(all[k].cos_o);
+    out.cos_d[k] = static_cast<float>(all[k].cos_d);
+  }
+}
+
 std::unique_ptr<Observations> observe(std::shared_ptr<const Dataset> dataset) {
   return std::make_unique<DatasetObservations>(std::move(dataset));
 }

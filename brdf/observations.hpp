@@ -60,6 +60,12 @@ struct ObservationBlock {
   }
 };
 
+/// What microfacet lobes need of the samples of a block, in float because they are many; every cosine is rounded once.
+struct FacetGeometry {
+  std::vector<float> tan2_h;               ///< tan² theta_h; 0 where there is no half vector above the surface
+  std::vector<float> cos_i, cos_o, cos_d;  ///< as in LobeGeometry
+};
+
 /// Samples of a BRDF in blocks. No copy of a table is made: a block points into the mapping or the data set, which must outlive it.
 /// Every member is safe to call from several threads.
 class Observations {
@@ -76,6 +82,8 @@ class Observations {
   /// The geometry of some samples of a block, by their numbers in it; `out` is resized. A table overrides this where a few samples cost
   /// less than all of them.
   virtual void geometry_of(std::size_t index, std::span<const std::size_t> samples, std::vector<LobeGeometry>& out) const;
+  /// What microfacet lobes need of every sample of a block; `out` is resized. A table overrides this where its grid makes it cheap.
+  virtual void facet_geometry(std::size_t index, FacetGeometry& out) const;
   /// The angles of every sample of a block; `out` is resized.
   virtual void angles(std::size_t index, std::vector<GonioAngles>& out) const = 0;
   /// Components of uncertainty shared by all samples.

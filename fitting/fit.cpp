@@ -12,6 +12,7 @@
 #include "brdf/error.hpp"
 #include "fitting/fit_checks.hpp"
 #include "fitting/fit_errors.hpp"
+#include "fitting/large_table.hpp"
 #include "fitting/point_fit.hpp"
 #include "fitting/solution.hpp"
 #include "fitting/sufficient_statistics.hpp"
@@ -264,7 +265,7 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const FitOptions& op
     const SolveOptions how = solve_options(options, kernel, these.channel.size());
     weigher.free_parameters = free_parameters(how);
     PointFit point_fit(these, how);
-    add_weighting(result.weighting, weigh(these, weigher, [&](bool global) { return point_fit(global); }), first);
+    if (!these.sums) add_weighting(result.weighting, weigh(these, weigher, [&](bool global) { return point_fit(global); }), first);
     return solve(these, how, correlated);
   };
   if (options.per_channel && terms.channel.size() > 1) {
@@ -283,6 +284,21 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const FitOptions& op
     result.reason = broken->reason;
   }
   return result;
+}
+
+/// Weights of a large table from what a small part of it shows; false if that part holds wrong readings, so that every sample has to be
+/// looked at.
+bool weigh_by_part(LargeTable& large, WeigherOptions weigher, const SolveOptions& how, Weighting& weighting) {
+  weigher.free_parameters = free_parameters(how);
+  PointFit point_fit(large.part, how);
+  weighting = weigh(large.part, weigher, [&](bool global) { return point_fit(global); });
+  if (weighting.robust != Robust::none) {
+    weighting = {};
+    return false;
+  }
+  if (!weighting.variance.empty() && point_fit.last())
+    large.weigh(weighting.variance, point_fit.last()->point.linear(), point_fit.last()->point.theta, how.threads);
+  return true;
 }
 
 }  // namespace
@@ -338,11 +354,17 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   WeigherOptions weigher = weigher_options(options);
   // With weights by the variance of f the cosine of linear-cos cancels.
   const bool cancels = weigher.estimate_variance && metric == Metric::linear_cos;
-  Terms terms = make_terms(observations, kernel, cancels ? Metric::linear : metric, options.threads, weigher.robust);
-  const auto repeats =
-      weigher.estimate_variance && !terms.weighted && !terms.collapsed ? repeated_readings(observations) : std::vector<RepeatedReadings>{};
+  const Metric minimised = cancels ? Metric::linear : metric;
+  std::optional<LargeTable> large;
+  Weighting judged;
+  if (!options.per_channel) large = large_table(observations, kernel, minimised, options.threads);
+  if (large && !weigh_by_part(*large, weigher, solve_options(options, kernel, observations.channels().size()), judged)) large.reset();
+  Terms terms = large ? std::move(large->terms) : make_terms(observations, kernel, minimised, options.threads, weigher.robust);
+  const auto repeats = weigher.estimate_variance && !terms.weighted && !terms.collapsed && !terms.sums ? repeated_readings(observations)
+                                                                                                       : std::vector<RepeatedReadings>{};
   weigher.repeats = repeats;
   FitResult result = fit_terms(terms, observations.channels(), options, weigher, observations.correlated());
+  if (large) result.weighting = std::move(judged);
   result.metric = metric;
   if (!result.values.empty()) {
     const auto chi2_per_dof = result.errors.chi2_per_dof;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "fitting/distributions.hpp"
 
@@ -26,9 +27,12 @@ Check energy_bound(const FitResult& result, const ModelKernel& kernel, const std
   double worst = -1;
   for (std::size_t c = 0; c < result.values.size(); ++c) {
     std::vector<double> values = result.values[c], gradient(values.size()), above(kernel.linear), below(kernel.linear);
-    const double albedo = kernel.info->albedo_bound(values.data());
     const auto [theta, phi] = kernel.info->brightest_incidence(values.data());
     kernel.info->albedo(theta, phi, values.data() + kernel.linear, gradient.data());
+    const double albedo =
+        kernel.info->closed_albedo
+            ? kernel.info->albedo_bound(values.data())
+            : std::inner_product(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(kernel.linear), gradient.begin(), 0.0);
     for (std::size_t j = kernel.linear; j < values.size(); ++j) {
       const double at = values[j], step = 1e-5 * std::abs(at);
       values[j] = at + step;

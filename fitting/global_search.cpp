@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "fitting/sums_search.hpp"
 #include "fitting/thinned.hpp"
 #include "fitting/threads.hpp"
 
@@ -77,14 +78,15 @@ double along(const SearchAxis& axis, std::size_t k, std::size_t points) {
 
 std::vector<ProfilePoint> scan_axis(const Profile& profile, const SearchSpace& space, int threads) {
   std::vector<ProfilePoint> points(scan_points);
-  for_each_index(scan_points, profile.terms().rows() > many_rows ? threads : 1, [&](std::size_t k) {
+  for_each_index(scan_points, profile.terms().rows() > many_rows || profile.terms().sums ? threads : 1, [&](std::size_t k) {
     const double z = along(space.axes().front(), k, scan_points);
     points[k] = profile.at(space.theta(std::span(&z, 1)));
   });
   return points;
 }
 
-std::vector<Minimum> minima_of_scan(const Profile& profile, const SearchSpace& space, const std::vector<ProfilePoint>& scan, int threads) {
+std::vector<Minimum> minima_of_scan(const Profile& profile, const SearchSpace& space, const std::vector<ProfilePoint>& scan, int threads,
+                                    double tolerance) {
   double largest = 0;
   for (const ProfilePoint& point : scan)
     if (std::isfinite(point.cost)) largest = std::max(largest, point.cost);
@@ -99,7 +101,7 @@ std::vector<Minimum> minima_of_scan(const Profile& profile, const SearchSpace& s
   const auto refine = [&](std::size_t k) {
     Minimum minimum{{along(axis, k, scan_points)}, scan[k]};
     const double a = along(axis, k == 0 ? 0 : k - 1, scan_points), b = along(axis, std::min(k + 1, scan.size() - 1), scan_points);
-    const double x = brent([&](double z) { return at(z).cost; }, a, b, brent_tolerance);
+    const double x = brent([&](double z) { return at(z).cost; }, a, b, tolerance);
     ProfilePoint point = at(x);
     if (point.cost < minimum.point.cost - rise * 1e-3 || (point.cost < minimum.point.cost && k > 0 && k + 1 < scan.size()))
       minimum = {{x}, std::move(point)};
@@ -275,7 +277,7 @@ Found search_rows(const Profile& profile, const SearchSpace& space, int threads)
   Found found;
   if (space.dimension() == 1) {
     found.scan = scan_axis(profile, space, threads);
-    found.minima = minima_of_scan(profile, space, found.scan, threads);
+    found.minima = minima_of_scan(profile, space, found.scan, threads, brent_tolerance);
     const SearchAxis& axis = space.axes().front();
     if (axis.low < axis.scan_low || axis.high > axis.scan_high) found.scan.clear();  // it does not reach the ends
   } else {
@@ -290,8 +292,22 @@ Found search_rows(const Profile& profile, const SearchSpace& space, int threads)
 
 }  // namespace
 
+Found search_axis(const Profile& profile, const SearchSpace& space, int threads, double tolerance) {
+  Found found;
+  found.scan = scan_axis(profile, space, threads);
+  found.minima = minima_of_scan(profile, space, found.scan, threads, tolerance);
+  return found;
+}
+
+Minimum lowest_between(const Profile& profile, const SearchSpace& space, double low, double high, int threads) {
+  const auto at = [&](double z) { return profile.at(space.theta(std::span(&z, 1)), threads); };
+  const double z = brent([&](double x) { return at(x).cost; }, low, high, brent_tolerance);
+  return {{z}, at(z)};
+}
+
 Found search_globally(const Profile& profile, const SearchSpace& space, int threads) {
   if (space.dimension() == 0) return {{}, {{{}, profile.at(space.theta({}), threads)}}};
+  if (profile.terms().sums && space.dimension() == 1) return search_on_sums(profile, space, threads);
   // Twice as many rows are still searched whole: thinning them gains less than the second look at all rows costs.
   if (profile.terms().rows() <= 2 * rows_for_search) return search_rows(profile, space, threads);
   const Terms few = thinned(profile.terms(), rows_for_search);

@@ -20,8 +20,13 @@ struct Found {
 /// Two: a grid, its local minima refined by descent. More: a low-discrepancy sequence (generalised golden ratio), the best points far
 /// from each other refined.
 /// Of many rows a part (thinned) is searched, and the minima found there are refined by descent on all. Two minima without a barrier
-/// between them are one; equal terms stand in order.
+/// between them are one; equal terms stand in order. Terms with `sums` go another way (sums_search.hpp).
 Found search_globally(const Profile& profile, const SearchSpace& space, int threads);
+
+/// The search along the one free axis: the scan, and its minima refined to `tolerance` on the axis.
+Found search_axis(const Profile& profile, const SearchSpace& space, int threads, double tolerance);
+/// The minimum between two points of the one free axis (Brent), to 1e-9.
+Minimum lowest_between(const Profile& profile, const SearchSpace& space, double low, double high, int threads);
 
 /// The minima that known ones have moved to under other weights.
 Found follow(const Profile& profile, const SearchSpace& space, const std::vector<Minimum>& known, int threads);

@@ -71,7 +71,9 @@ void estimate(Solution& solution, const Profile& profile, const SearchSpace& spa
     count += static_cast<double>(data.count);
     for (std::size_t row = 0; row < terms.rows(); ++row) {
       size_of_terms += data.weight[row] * data.target[row] * data.target[row];
-      const double samples = terms.collapsed ? static_cast<double>(data.row_count[row]) : 1;
+      const double samples = terms.collapsed            ? static_cast<double>(data.row_count[row])
+                             : terms.represents.empty() ? 1
+                                                        : terms.represents[row];
       if (data.weight[row] > 0 && samples > 0) log_weights += samples * std::log(data.weight[row] / samples);
     }
     for (const double held : profile.limits()[c].held) solution.free_parameters += std::isnan(held);

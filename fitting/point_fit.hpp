@@ -21,6 +21,9 @@ class PointFit {
   /// descends from the last minimum.
   std::optional<std::vector<std::vector<double>>> operator()(bool global);
 
+  /// The minimum of the last call; null before the first and where there is none.
+  const Minimum* last() const noexcept { return last_ ? &*last_ : nullptr; }
+
  private:
   const Terms& terms_;
   const SolveOptions& options_;

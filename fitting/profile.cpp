@@ -42,9 +42,8 @@ double Profile::cost_of(std::size_t channel, const std::vector<double>& columns,
   return std::isnan(cost) ? std::numeric_limits<double>::infinity() : cost;
 }
 
-ChannelPart Profile::channel_part(std::size_t channel, const Triangle& triangle) const {
+ChannelPart Profile::channel_part(std::size_t channel, const Matrix& r) const {
   const std::size_t linear = terms_->kernel.linear;
-  const Matrix& r = triangle.r();
   const auto rhs = r.column(linear).first(linear);
   const LinearLimits& limits = limits_[channel];
   ChannelPart part;
@@ -86,7 +85,7 @@ ChannelPart Profile::linearised(std::size_t channel, const std::vector<double>& 
           block(j, linear) = rhs;
         }
       });
-  return channel_part(channel, triangles.front());
+  return channel_part(channel, triangles.front().r());
 }
 
 ChannelPart Profile::channel_at(std::size_t channel, const std::vector<double>& columns, int threads) const {
@@ -129,7 +128,10 @@ ProfilePoint Profile::at(std::span<const double> theta, int threads) const {
   const std::size_t rows = terms_->rows(), linear = terms_->kernel.linear, channels = terms_->channel.size();
   ProfilePoint point;
   point.theta.assign(theta.begin(), theta.end());
-  if (terms_->transform.linear()) {
+  if (terms_->sums) {
+    const std::vector<Matrix> triangles = terms_->sums->triangles(theta.front(), threads);
+    for (std::size_t c = 0; c < channels; ++c) point.channel.push_back(channel_part(c, triangles[c]));
+  } else if (terms_->transform.linear()) {
     const auto fill = [&](std::size_t begin, std::size_t end, std::vector<Matrix>& blocks) {
       const std::size_t size = end - begin;
       std::array<double, max_linear * rows_at_once> columns;
@@ -147,7 +149,7 @@ ProfilePoint Profile::at(std::span<const double> theta, int threads) const {
       }
     };
     const auto triangles = triangles_of_rows(rows, std::vector<std::size_t>(channels, linear + 1), threads, fill);
-    for (std::size_t c = 0; c < channels; ++c) point.channel.push_back(channel_part(c, triangles[c]));
+    for (std::size_t c = 0; c < channels; ++c) point.channel.push_back(channel_part(c, triangles[c].r()));
   } else {
     std::vector<double> columns(linear * rows);
     terms_->basis(0, rows, theta.data(), columns.data(), rows);

@@ -49,7 +49,7 @@ class Profile {
   ProfilePoint at(std::span<const double> theta, int threads = 1) const;
 
  private:
-  ChannelPart channel_part(std::size_t channel, const Triangle& triangle) const;
+  ChannelPart channel_part(std::size_t channel, const Matrix& r) const;
   ChannelPart channel_at(std::size_t channel, const std::vector<double>& columns, int threads) const;
   ChannelPart linearised(std::size_t channel, const std::vector<double>& columns, const std::vector<double>* about, int threads) const;
   double cost_of(std::size_t channel, const std::vector<double>& columns, const std::vector<double>& x) const;

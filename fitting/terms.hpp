@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "brdf/observations.hpp"
 #include "fitting/model_kernel.hpp"
+#include "fitting/row_sums.hpp"
 #include "fitting/transform.hpp"
 #include "fitting/weighting.hpp"
 
@@ -36,6 +38,9 @@ struct Terms {
   bool pure_error = false;  ///< weights are 1/variance of the scatter of the data among themselves, whatever the model misses
   bool collapsed = false;   ///< a row is a whole block
   std::size_t n_observations = 0, n_masked = 0;
+  /// If set, the rows are a part of the data, with weights raised to stand for all; the profile is that of these sums, of all samples.
+  std::shared_ptr<RowSums> sums;
+  std::vector<double> represents;  ///< with `sums`: how many samples every row stands for
   std::vector<Outlier> outliers;  ///< of collapsed rows, left out or weighed down there
 
   std::size_t rows() const noexcept { return geometry.size(); }

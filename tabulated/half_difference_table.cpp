@@ -2,6 +2,7 @@
 #include "tabulated/half_difference_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -59,6 +60,25 @@ class MerlObservations final : public Observations {
   void geometry_of(std::size_t row, std::span<const std::size_t> samples, std::vector<LobeGeometry>& out) const override {
     out.resize(samples.size());
     for (std::size_t j = 0; j < samples.size(); ++j) out[j] = geometry_at(row, samples[j]);
+  }
+
+  /// The cosines of wi and wo are cos θh cos θd ∓ sin θh sin θd cos φd.
+  void facet_geometry(std::size_t row, FacetGeometry& out) const override {
+    for (auto* column : {&out.tan2_h, &out.cos_i, &out.cos_o, &out.cos_d}) column->resize(MerlGrid::row_count);
+    std::array<double, MerlGrid::phi_d_count> cos_phi;
+    for (std::size_t p = 0; p < cos_phi.size(); ++p) cos_phi[p] = MerlGrid::node({row, 0, p}, nodes_).phi_d.cos();
+    const auto tan2_h = static_cast<float>(std::expm1(-2 * log_cos_h(row)));
+    std::fill(out.tan2_h.begin(), out.tan2_h.end(), tan2_h);
+    for (std::size_t d = 0; d < MerlGrid::theta_d_count; ++d) {
+      const HalfDifference node = MerlGrid::node({row, d, 0}, nodes_);
+      const double middle = node.theta_h.cos() * node.theta_d.cos(), swing = node.theta_h.sin() * node.theta_d.sin();
+      for (std::size_t p = 0; p < cos_phi.size(); ++p) {
+        const std::size_t k = d * MerlGrid::phi_d_count + p;
+        out.cos_i[k] = static_cast<float>(middle - swing * cos_phi[p]);
+        out.cos_o[k] = static_cast<float>(middle + swing * cos_phi[p]);
+        out.cos_d[k] = static_cast<float>(node.theta_d.cos());
+      }
+    }
   }
 
   void angles(std::size_t row, std::vector<GonioAngles>& out) const override {

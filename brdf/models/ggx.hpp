@@ -20,6 +20,10 @@ struct Ggx {
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true};
 
+  /// The lobe [1/sr] from numbers alone, for batches in float (fitting/facet_table.hpp).
+  static float lobe(float tan2_h, float cos_i, float cos_o, float alpha) {
+    return ggx_distribution(tan2_h, alpha) * ggx_visibility(cos_i, cos_o, alpha);
+  }
   template <class T>
   static void basis(const LobeGeometry& g, const T* nonlinear, T* out) {
     schlick_basis(g, ggx_lobe(g, nonlinear[0]), out);

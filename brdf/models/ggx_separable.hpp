@@ -18,6 +18,10 @@ struct GgxSeparable {
   static constexpr DependsOn depends_on = DependsOn::all;
   static constexpr ModelProperties properties{true, true, true};
 
+  /// The lobe [1/sr] from numbers alone, for batches in float (fitting/facet_table.hpp).
+  static float lobe(float tan2_h, float cos_i, float cos_o, float alpha) {
+    return ggx_distribution(tan2_h, alpha) * ggx_separable_visibility(cos_i, cos_o, alpha);
+  }
   template <class T>
   static void basis(const LobeGeometry& g, const T* nonlinear, T* out) {
     schlick_basis(g, ggx_separable_lobe(g, nonlinear[0]), out);

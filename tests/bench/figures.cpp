@@ -98,13 +98,13 @@ double plain_sum_s(const std::filesystem::path& path, int runs) {
   return median(seconds);
 }
 
-void report(const std::string& gonio, const std::filesystem::path& file, int runs) {
+void report(const std::string& gonio, const std::filesystem::path& file, const std::string& model, int runs) {
   std::vector<double> wall, memory;
   Json last;
   std::filesystem::path out = file;
   out += ".out";
   for (int k = -1; k < runs; ++k) {
-    Run one = run({gonio, "fit", file.string(), "--model", "blinn-phong-ngan", "--json"}, out);
+    Run one = run({gonio, "fit", file.string(), "--model", model, "--metric", "linear", "--json"}, out);
     last = std::move(one.document);
     if (k >= 0) wall.push_back(one.wall_s), memory.push_back(one.memory_mb);  // the first fills the page cache
   }
@@ -127,14 +127,19 @@ int main(int argc, char** argv) {
   const int runs = argc > 2 ? std::max(1, std::atoi(argv[2])) : 11;
   const test::TemporaryFolder folder;
   for (const double s : {50.0, 2000.0, 20000.0}) {
-    bench::SyntheticMaterial material;
-    material.s = s;
     const auto merl = folder / fmt::format("s{}.binary", s), csv = folder / fmt::format("s{}.csv", s);
-    bench::write_merl_file(merl, material);
-    bench::write_csv_file(csv, material);
-    report(argv[1], merl, runs);
+    bench::write_merl_file(merl, bench::blinn_phong(s));
+    bench::write_csv_file(csv, bench::blinn_phong(s));
+    report(argv[1], merl, "blinn-phong-ngan", runs);
     fmt::print("{:<16} plain sum of the mapping, 2 threads: {:.1f} ms\n", "", 1e3 * plain_sum_s(merl, runs));
-    report(argv[1], csv, runs);
+    report(argv[1], csv, "blinn-phong-ngan", runs);
+    std::filesystem::remove(merl);
+  }
+  for (const double alpha : {0.02, 0.1, 0.4}) {
+    constexpr double five_degrees = 0.087;  // 1.0 million samples
+    const auto merl = folder / fmt::format("alpha{}.binary", alpha);
+    bench::write_merl_file(merl, bench::ggx(alpha), five_degrees);
+    report(argv[1], merl, "ggx", runs);
     std::filesystem::remove(merl);
   }
   return 0;

@@ -10,7 +10,6 @@
 
 #include <fmt/format.h>
 
-#include "brdf/analytic_brdf.hpp"
 #include "brdf/channels.hpp"
 #include "tabulated/merl.hpp"
 #include "tabulated/merl_grid.hpp"
@@ -18,15 +17,11 @@
 namespace gonio::bench {
 namespace {
 
-AnalyticBrdf brdf(const SyntheticMaterial& m) {
-  std::vector<std::vector<double>> values;
-  for (const double rho_d : m.rho_d) values.push_back({rho_d, m.rho_s, m.s});
-  return AnalyticBrdf("blinn-phong-ngan", rgb_channels(), values);
-}
+constexpr unsigned long long seed = 20260701;
 
 class Noise {
  public:
-  explicit Noise(unsigned long long seed) : random_(seed) {}
+  explicit Noise(unsigned long long from) : random_(from) {}
   double operator()(double f) { return f + std::hypot(0.01 * f, 1e-4) * normal_(random_); }
 
  private:
@@ -36,15 +31,22 @@ class Noise {
 
 }  // namespace
 
-void write_merl_file(const std::filesystem::path& path, const SyntheticMaterial& material) {
+AnalyticBrdf blinn_phong(double s) {
+  return AnalyticBrdf("blinn-phong-ngan", rgb_channels(), {{0.20, 0.30, s}, {0.15, 0.30, s}, {0.10, 0.30, s}});
+}
+
+AnalyticBrdf ggx(double alpha) {
+  return AnalyticBrdf("ggx", rgb_channels(), {{0.20, 0.05, 0.9, alpha}, {0.15, 0.05, 0.9, alpha}, {0.10, 0.05, 0.9, alpha}});
+}
+
+void write_merl_file(const std::filesystem::path& path, const AnalyticBrdf& truth, double least_cosine) {
   using tabulated::MerlGrid;
-  const AnalyticBrdf truth = brdf(material);
-  Noise noise(material.seed);
+  Noise noise(seed);
   std::vector<double> planes(3 * MerlGrid::cell_count);
   for (std::size_t k = 0; k < MerlGrid::cell_count; ++k) {
     const DirectionPair pair = directions(MerlGrid::node(MerlGrid::cell(k), tabulated::MerlNodes::centre));
     double f[3] = {-1, -1, -1};
-    if (tabulated::above_horizon(pair)) {
+    if (tabulated::above_horizon(pair) && pair.wi.z() > least_cosine && pair.wo.z() > least_cosine) {
       truth.eval(std::span(&pair.wi, 1), std::span(&pair.wo, 1), f);
       for (std::size_t c = 0; c < 3; ++c) f[c] = noise(f[c]) / tabulated::MerlPlanes::file_scale[c];
     }
@@ -57,9 +59,8 @@ void write_merl_file(const std::filesystem::path& path, const SyntheticMaterial&
   std::ofstream(tabulated::merl_sidecar(path)) << "{\"node_rule\": \"centre\", \"context\": {\"simulated\": true}}\n";
 }
 
-void write_csv_file(const std::filesystem::path& path, const SyntheticMaterial& material) {
-  const AnalyticBrdf truth = brdf(material);
-  Noise noise(material.seed);
+void write_csv_file(const std::filesystem::path& path, const AnalyticBrdf& truth) {
+  Noise noise(seed);
   std::string text = "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,r,g,b\n";
   for (int i = 0; i < 9; ++i)
     for (int o = 0; o < 36; ++o)

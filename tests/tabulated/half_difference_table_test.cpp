@@ -136,6 +136,29 @@ TEST_CASE("The fitter sees 90 rows of constant theta_h with the geometry of the 
   }
 }
 
+TEST_CASE("The cosines of a row in float are those of its geometry") {
+  for (const MerlNodes nodes : {MerlNodes::left, MerlNodes::centre}) {
+    const auto observations = observe_merl(planes_of([](const MerlCell&, std::size_t) { return 1.0; }), nodes);
+    for (const std::size_t row : {std::size_t{0}, std::size_t{1}, std::size_t{40}, std::size_t{89}}) {
+      std::vector<LobeGeometry> all;
+      FacetGeometry facets;
+      observations->geometry(row, all);
+      observations->facet_geometry(row, facets);
+      REQUIRE(facets.cos_i.size() == all.size());
+      constexpr double one_rounding = 1e-7;
+      double worst = 0;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        worst = std::max({worst, std::fabs(facets.cos_i[k] - all[k].cos_i), std::fabs(facets.cos_o[k] - all[k].cos_o),
+                          std::fabs(facets.cos_d[k] - all[k].cos_d)});
+        if (all[k].has_half_vector() && all[k].above_horizon())
+          worst = std::max(worst, std::fabs(facets.tan2_h[k] / std::max(all[k].tan2_h, 1e-12) - std::min(1.0, all[k].tan2_h / 1e-12)));
+      }
+      INFO("row " << row);
+      CHECK(worst < one_rounding);
+    }
+  }
+}
+
 TEST_CASE("The half angle of the first rows keeps its digits") {
   const auto observations = observe_merl(planes_of([](const MerlCell&, std::size_t) { return 1.0; }), MerlNodes::left);
   CHECK(observations->block(0).log_cos_h == 0);
