@@ -43,6 +43,7 @@ class DatasetObservations final : public Observations {
     out.assign(first(index), first(index) + static_cast<std::ptrdiff_t>(size_of(index)));
   }
 
+  Apertures apertures(std::size_t) const override { return dataset_->apertures; }
   std::vector<CorrelatedComponent> correlated() const override { return dataset_->correlated; }
 
  private:

@@ -86,6 +86,8 @@ class Observations {
   virtual void facet_geometry(std::size_t index, FacetGeometry& out) const;
   /// The angles of every sample of a block; `out` is resized.
   virtual void angles(std::size_t index, std::vector<GonioAngles>& out) const = 0;
+  /// Half-angles over which the samples of a block are means; unknown for data that do not say.
+  virtual Apertures apertures(std::size_t) const { return {}; }
   /// Components of uncertainty shared by all samples.
   virtual std::vector<CorrelatedComponent> correlated() const { return {}; }
 };

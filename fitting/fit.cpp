@@ -16,7 +16,7 @@
 #include "fitting/point_fit.hpp"
 #include "fitting/solution.hpp"
 #include "fitting/sufficient_statistics.hpp"
-#include "fitting/weigher.hpp"
+#include "fitting/weigh_and_convolve.hpp"
 
 namespace gonio::fitting {
 namespace {
@@ -247,8 +247,9 @@ void assemble(FitResult& result, const std::vector<Solution>& solutions, const M
 }
 
 /// The fit of terms that stand: everything but what only the observations know, the errors under every metric.
-FitResult fit_terms(Terms& terms, const Channels& channels, const FitOptions& options, WeigherOptions weigher,
-                    const std::vector<CorrelatedComponent>& correlated) {
+/// `observations`: null if the terms come from sums, which have no apertures.
+FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* observations, const FitOptions& options,
+                    WeigherOptions weigher, const std::vector<CorrelatedComponent>& correlated) {
   const ModelKernel& kernel = terms.kernel;
   FitResult result;
   result.model = options.model;
@@ -264,8 +265,8 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const FitOptions& op
   const auto solved = [&](Terms& these, std::size_t first) {
     const SolveOptions how = solve_options(options, kernel, these.channel.size());
     weigher.free_parameters = free_parameters(how);
-    PointFit point_fit(these, how);
-    if (!these.sums) add_weighting(result.weighting, weigh(these, weigher, [&](bool global) { return point_fit(global); }), first);
+    if (!these.sums)
+      add_weighting(result.weighting, weigh_and_convolve(these, how, weigher, observations, options, result.aperture), first);
     return solve(these, how, correlated);
   };
   if (options.per_channel && terms.channel.size() > 1) {
@@ -363,7 +364,7 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   const auto repeats = weigher.estimate_variance && !terms.weighted && !terms.collapsed && !terms.sums ? repeated_readings(observations)
                                                                                                        : std::vector<RepeatedReadings>{};
   weigher.repeats = repeats;
-  FitResult result = fit_terms(terms, observations.channels(), options, weigher, observations.correlated());
+  FitResult result = fit_terms(terms, observations.channels(), &observations, options, weigher, observations.correlated());
   if (large) result.weighting = std::move(judged);
   result.metric = metric;
   if (!result.values.empty()) {
@@ -386,7 +387,7 @@ FitResult fit(const SufficientStatistics& statistics, const FitOptions& options)
   require_estimable(statistics.weighted, statistics.rows, options);
   if (statistics.rows == SufficientStatistics::Rows::directions) weigher.estimate_variance = false, weigher.robust = Robust::none;
   Terms terms = make_terms(statistics, kernel);
-  FitResult result = fit_terms(terms, statistics.channels, options, weigher, statistics.correlated);
+  FitResult result = fit_terms(terms, statistics.channels, nullptr, options, weigher, statistics.correlated);
   result.metric = statistics.metric;
   if (statistics.n_outliers > 0) {
     result.weighting.n_outliers += statistics.n_outliers;

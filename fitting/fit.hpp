@@ -11,6 +11,7 @@
 
 #include "brdf/observations.hpp"
 #include "fitting/checks/check.hpp"
+#include "fitting/convolution.hpp"
 #include "fitting/weighting.hpp"
 
 namespace gonio::fitting {
@@ -41,6 +42,7 @@ struct FitOptions {
   std::optional<Metric> metric;  ///< unset: linear
   Weights weights = Weights::automatic;
   std::optional<Robust> robust;          ///< unset: automatic where the weights are automatic and the metric is unset, else none
+  bool ignore_apertures = false;         ///< compare with the model at the nominal directions whatever apertures the data state
   bool per_channel = false;              ///< nonlinear parameters per channel too
   std::map<std::string, double> fixed;   ///< parameters held at a value; those the model holds of itself, at another (Parameter::held)
   std::map<std::string, Bounds> bounds;  ///< narrower than the model's, for any parameter that is not fixed
@@ -108,6 +110,7 @@ struct FitResult {
   std::vector<std::vector<double>> correlation;
   std::vector<Determined> determined;
   FitLikelihood likelihood;
+  ApertureEffect aperture;         ///< whether means over the apertures were taken, and why
   Weighting weighting;             ///< where the weights came from, and the outliers
   std::size_t n_observations = 0;  ///< samples used
   std::size_t n_masked = 0;        ///< cells of the observations that are no measurement, and f <= 0 under `log`

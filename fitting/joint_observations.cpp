@@ -43,6 +43,7 @@ class JointObservations final : public Observations {
     part(index).geometry_of(blocks_[index].second, samples, out);
   }
   void angles(std::size_t index, std::vector<GonioAngles>& out) const override { part(index).angles(blocks_[index].second, out); }
+  Apertures apertures(std::size_t index) const override { return part(index).apertures(blocks_[index].second); }
 
   std::vector<CorrelatedComponent> correlated() const override {
     std::vector<std::vector<CorrelatedComponent>> stated;

@@ -35,6 +35,7 @@ class SubsetObservations final : public Observations {
     all_->geometry_of(index, samples, out);
   }
   void angles(std::size_t index, std::vector<GonioAngles>& out) const override { all_->angles(index, out); }
+  Apertures apertures(std::size_t index) const override { return all_->apertures(index); }
   std::vector<CorrelatedComponent> correlated() const override { return all_->correlated(); }
 
  private:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "fitting/collapse.hpp"
 #include "fitting/threads.hpp"
@@ -135,7 +136,45 @@ Terms block_rows(const Observations& observations, std::size_t index, std::size_
   return out;
 }
 
+/// Puts the means of the nodes of rows [begin, end) in their places; `evaluate(nodes, values, stride)` gives `count` values per node.
+template <class Evaluate>
+void put_means(const MeanRows& mean, std::size_t begin, std::size_t end, std::size_t count, double* columns, std::size_t stride,
+               Evaluate&& evaluate) {
+  const auto from = static_cast<std::size_t>(std::lower_bound(mean.row.begin(), mean.row.end(), begin) - mean.row.begin());
+  const auto to = static_cast<std::size_t>(std::lower_bound(mean.row.begin(), mean.row.end(), end) - mean.row.begin());
+  if (from == to) return;
+  const std::size_t first = mean.first[from], nodes = mean.first[to] - first;
+  std::vector<double> values(count * nodes);
+  evaluate(std::span(mean.geometry).subspan(first, nodes), values.data(), nodes);
+  for (std::size_t r = from; r < to; ++r)
+    for (std::size_t k = 0; k < count; ++k) {
+      double sum = 0;
+      for (std::size_t n = mean.first[r]; n < mean.first[r + 1]; ++n) sum += mean.weight[n] * values[k * nodes + n - first];
+      columns[k * stride + mean.row[r] - begin] = sum;
+    }
+}
+
 }  // namespace
+
+void Terms::basis(std::size_t begin, std::size_t end, const double* theta, double* columns, std::size_t stride) const {
+  kernel.basis(std::span(geometry).subspan(begin, end - begin), theta, columns, stride);
+  put_means(mean, begin, end, kernel.linear, columns, stride,
+            [&](std::span<const LobeGeometry> nodes, double* values, std::size_t n) { kernel.basis(nodes, theta, values, n); });
+}
+
+void Terms::basis_and_slopes(std::size_t begin, std::size_t end, const double* theta, double* columns, double* slopes,
+                             std::size_t stride) const {
+  kernel.basis_and_slopes(std::span(geometry).subspan(begin, end - begin), theta, columns, slopes, stride);
+  if (mean.empty()) return;
+  const std::size_t linear = kernel.linear;
+  put_means(mean, begin, end, linear, columns, stride,
+            [&](std::span<const LobeGeometry> nodes, double* values, std::size_t n) { kernel.basis(nodes, theta, values, n); });
+  put_means(mean, begin, end, linear * kernel.nonlinear, slopes, stride,
+            [&](std::span<const LobeGeometry> nodes, double* values, std::size_t n) {
+              std::vector<double> unused(linear * n);
+              kernel.basis_and_slopes(nodes, theta, unused.data(), values, n);
+            });
+}
 
 Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads, Robust robust) {
   const std::size_t blocks = observations.block_count();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "brdf/observations.hpp"
+#include "fitting/convolution.hpp"
 #include "fitting/model_kernel.hpp"
 #include "fitting/row_sums.hpp"
 #include "fitting/transform.hpp"
@@ -33,6 +34,7 @@ struct Terms {
   Transform transform;
   std::vector<LobeGeometry> geometry;  ///< one per row
   std::vector<std::size_t> sample;     ///< number of the sample of every row; empty if collapsed
+  MeanRows mean;                       ///< rows whose f̂ is a mean over the apertures instead of the value at `geometry`
   std::vector<ChannelTerms> channel;
   bool weighted = false;    ///< weights are 1/variance, so that the sum is a χ²
   bool pure_error = false;  ///< weights are 1/variance of the scatter of the data among themselves, whatever the model misses
@@ -47,14 +49,9 @@ struct Terms {
 
   /// columns[k · stride + j] = basis_k of row begin + j at the nonlinear parameters `theta`. Together with the next the only place where
   /// the model meets the geometry of the rows.
-  void basis(std::size_t begin, std::size_t end, const double* theta, double* columns, std::size_t stride) const {
-    kernel.basis(std::span(geometry).subspan(begin, end - begin), theta, columns, stride);
-  }
+  void basis(std::size_t begin, std::size_t end, const double* theta, double* columns, std::size_t stride) const;
   /// The same, and slopes[(i · linear + k) · stride + j] = d basis_k / d theta_i.
-  void basis_and_slopes(std::size_t begin, std::size_t end, const double* theta, double* columns, double* slopes,
-                        std::size_t stride) const {
-    kernel.basis_and_slopes(std::span(geometry).subspan(begin, end - begin), theta, columns, slopes, stride);
-  }
+  void basis_and_slopes(std::size_t begin, std::size_t end, const double* theta, double* columns, double* slopes, std::size_t stride) const;
 };
 
 /// Which samples count and how much:

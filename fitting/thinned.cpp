@@ -37,6 +37,7 @@ Terms thinned(const Terms& terms, std::size_t most) {
     left -= std::min(left, sizes[k]);
   }
   Terms out;
+  std::vector<std::size_t> taken_rows;
   out.kernel = terms.kernel;
   out.transform = terms.transform;
   out.weighted = terms.weighted;
@@ -47,6 +48,7 @@ Terms thinned(const Terms& terms, std::size_t most) {
     std::vector<std::size_t> chosen;
     for (std::size_t k = 0; k < taken; ++k) chosen.push_back(rows[(2 * k + 1) * rows.size() / (2 * taken)]);
     for (const std::size_t row : chosen) out.geometry.push_back(terms.geometry[row]);
+    taken_rows.insert(taken_rows.end(), chosen.begin(), chosen.end());
     for (std::size_t c = 0; c < terms.channel.size(); ++c) {
       const ChannelTerms& all = terms.channel[c];
       ChannelTerms& part = out.channel[c];
@@ -60,6 +62,7 @@ Terms thinned(const Terms& terms, std::size_t most) {
       }
     }
   }
+  out.mean = terms.mean.of(taken_rows);
   for (std::size_t c = 0; c < terms.channel.size(); ++c) out.channel[c].within = terms.channel[c].within;
   return out;
 }

@@ -12,7 +12,8 @@ namespace gonio::fitting {
 namespace {
 
 constexpr int variance_rounds = 3;         // the weights have settled to 1e-6 by then (numerics C13)
-constexpr int robust_rounds = 12;          // Cauchy weights with a global search each
+constexpr int robust_rounds = 12;          // Cauchy weights
+constexpr int global_robust_rounds = 2;    // the first weights are those of a fit that the outliers may have led astray
 constexpr int fewest_robust_rounds = 3;    // a list of outliers that stands still sooner may still be that of the start
 constexpr double truncation = 2;           // of the squares of a robust scale
 constexpr int truncated_rounds = 20;       // one contracts an excess of outliers at least by half
@@ -292,13 +293,13 @@ class Weigher {
     for (int round = 0; round < robust_rounds; ++round) {
       estimate_variance(fitted, true);
       set_weights(fitted, Robust::cauchy);
-      auto next = fitter_(true);
+      auto next = fitter_(round < global_robust_rounds);
       if (!next) return restore("the robust start has no solution");
       fitted = std::move(*next);
       auto now = far_rows(fitted);
       const bool stands = now == far && round + 1 >= fewest_robust_rounds;
       far = std::move(now);
-      if (stands) break;
+      if (stands || (automatic && round + 1 >= fewest_robust_rounds && structured(far))) break;
     }
     if (automatic && far.empty()) return restore("a robust start finds no outlier");
     if (automatic && structured(far))
@@ -318,7 +319,7 @@ class Weigher {
       estimate_variance(fitted, !estimated_);
       set_weights(fitted, Robust::none);
       far = far_rows(fitted);
-      auto next = fitter_(round == 0);
+      auto next = fitter_(false);
       if (!next) return restore("no solution without the outliers");
       fitted = std::move(*next);
     }

@@ -31,7 +31,7 @@ using Fitter = std::function<std::optional<std::vector<std::vector<double>>>(boo
 ///             Bayesian information criterion says so. Collapsed rows take their own scatter, drawn towards the model of all rows.
 ///   robust    automatic: residuals that look clean (none beyond `outlier_limit`, median not far below that of the normal
 ///             distribution) change nothing at all. Otherwise Cauchy weights with a scale from truncated squares (Huber's proposal 2)
-///             until the list of outliers stands, a global search each time, and then least squares without the outliers. Outliers in
+///             until the list of outliers stands, with a global search at first, and then least squares without the outliers. Outliers in
 ///             runs are a model that does not fit: then nothing is left out.
 ///             huber, cauchy: that loss from the same start.
 /// Collapsed rows have met their wrong readings before (robust_mean).

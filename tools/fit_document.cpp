@@ -176,6 +176,10 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
   if (result.likelihood.n > 0) document.set("likelihood", likelihood_document(result.likelihood));
   document.set("errors", errors_document(result.errors));
   document.set("weighting", weighting_document(result));
+  document.set("apertures", Json::object({{"on", result.aperture.on},
+                                          {"reason", result.aperture.reason.empty() ? Json() : Json(result.aperture.reason)},
+                                          {"bound", result.aperture.bound},
+                                          {"n_samples", static_cast<std::int64_t>(result.aperture.n_samples)}}));
   document.set("n_observations", static_cast<std::int64_t>(result.n_observations));
   Json counts = masked_document(masked);
   const std::size_t in_fit = result.n_masked;
@@ -207,6 +211,7 @@ std::vector<std::string> fit_lines(const fitting::FitResult& result) {
     errors += fmt::format("{}chi2 per degree of freedom {:.3f}", errors.empty() ? "  " : "; ", *result.errors.chi2_per_dof);
   if (!errors.empty()) lines.push_back(errors);
   if (const std::string line = weighting_line(result); !line.empty()) lines.push_back(line);
+  if (result.aperture.on) lines.push_back("  " + result.aperture.reason);
   for (const auto& minimum : result.other_minima)
     lines.push_back(
         fmt::format("  another minimum at {:.6g} with {:.4g} times the cost", fmt::join(minimum.nonlinear, ", "), minimum.cost_ratio));

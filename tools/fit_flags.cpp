@@ -47,6 +47,7 @@ Json options_document(const FitFlags& flags, const fitting::FitOptions& fit, con
     out.set("bound", bounds);
   }
   if (fit.per_channel) out.set("per-channel", true);
+  if (fit.ignore_apertures) out.set("ignore-apertures", true);
   if (fit.confidence != fitting::FitOptions().confidence) out.set("confidence", fit.confidence);
   for (const auto& [flag, value] : {std::pair{"weights", flags.weights},
                                     {"robust", flags.robust},
@@ -78,6 +79,8 @@ void FitFlags::add_to(CLI::App& app) {
   app.add_option("--robust", robust, std::string("Against wrong readings: ") + robust_list);
   app.add_option("--fix", fixed, "NAME=VALUE: hold a parameter")->take_all();
   app.add_option("--bound", bounds, "NAME=LOW,HIGH: search a parameter there only")->take_all();
+  app.add_flag("--ignore-apertures", fit.ignore_apertures,
+               "Compare with the model at the nominal directions whatever apertures are stated");
   app.add_option("--confidence", fit.confidence, "Of the intervals (default 0.95)");
   app.add_flag("--per-channel", fit.per_channel, "Nonlinear parameters per channel");
   read.add_to(app);
