@@ -65,6 +65,7 @@ struct Topic {
 const std::vector<Topic>& topics();
 
 Measured measure_albedo(const Effort& effort);
+Measured measure_fit(const Effort& effort);
 Measured measure_precision(const Effort& effort);
 
 /// Marks the points that no other point of their panel beats in both time and error.
