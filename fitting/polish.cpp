@@ -64,7 +64,8 @@ bool residuals(const Terms& terms, std::size_t channel, std::size_t begin, std::
 }
 
 Polished polish(const Terms& terms, const SearchSpace& space, const std::vector<LinearLimits>& limits,
-                const std::vector<std::vector<double>>& start, const std::vector<double>& theta, int threads, int most_iterations) {
+                const std::vector<std::vector<double>>& start, const std::vector<double>& theta, int threads, int most_iterations,
+                double function_tolerance) {
   Polished result{start, theta, 0, false, {}};
   ceres::Problem problem;
   std::vector<double> nonlinear = theta;
@@ -104,7 +105,7 @@ Polished polish(const Terms& terms, const SearchSpace& space, const std::vector<
   options.linear_solver_type = terms.rows() * terms.channel.size() <= rows_for_qr ? ceres::DENSE_QR : ceres::DENSE_NORMAL_CHOLESKY;
   options.num_threads = threads;
   options.max_num_iterations = most_iterations;
-  options.function_tolerance = 1e-14;  // quadratic convergence: tight costs one more step (numerics F4)
+  options.function_tolerance = function_tolerance;
   options.parameter_tolerance = 1e-12;
   options.gradient_tolerance = 1e-16;
   options.logging_type = ceres::SILENT;
