@@ -22,6 +22,7 @@ namespace {
 constexpr std::size_t rows = 90;
 constexpr int seeds = 5;
 constexpr int threads = 2;
+constexpr double rounding = 1e-12;  // below it no distance from the optimum can be told from another
 
 /// Samples on rows of constant θh, spaced as in a MERL table; every `stride`-th of them, the constancy told or hidden.
 class Table final : public Observations {
@@ -169,7 +170,7 @@ Measured measure_fit(const Effort& effort) {
           solve_directly(*tables.back(), which.model, {result.values[0].begin(), split}, {split, result.values[0].end()}, 1e-16).theta[0]);
       if (k == 0) {
         const double sigma = relative_sigma(result, which.parameter);
-        panel.error_floors = {{sigma, fmt::format("noise of the data, one sigma: {:.1e}", sigma)}};
+        panel.error_floors = {{sigma, fmt::format("noise of the data, one sigma: {:.1e}", sigma)}, {rounding, "rounding of the sums"}};
       }
     }
     const Timing sum = time_of(
@@ -199,8 +200,7 @@ Measured measure_fit(const Effort& effort) {
       }
       Point point;
       point.panel = panel.name, point.method = way.method, point.setting = way.setting;
-      // Below the rounding of the terms no distance can be told from another.
-      if (std::isfinite(square)) point.error = std::max(std::sqrt(square), 1e-12);
+      if (std::isfinite(square)) point.error = std::max(std::sqrt(square), rounding);
       point.worst_at = "rms over five noises";
       point.time = timing_of(std::move(seconds));
       out.points.push_back(std::move(point));
