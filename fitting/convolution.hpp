@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "brdf/observations.hpp"
-#include "fitting/aperture.hpp"
+#include "brdf/aperture.hpp"
 
 namespace gonio::fitting {
 

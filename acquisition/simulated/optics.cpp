@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "acquisition/reduce.hpp"
 #include "acquisition/simulated/noise.hpp"
@@ -16,6 +17,9 @@ namespace {
 enum Draw : std::uint64_t { certificate, shot, read };
 
 constexpr BenchTime hour = 3600 * second;
+
+/// Orders of the cubature over each aperture: 16 and 36 directions, exact for a lobe that is a polynomial of degree 7 and 11 across it.
+constexpr int source_order = 2, receiver_order = 3;
 
 /// K of the measurement equation per unit of flux. An ideal receiver (half-angle 0) counts as one steradian: only ratios matter then.
 double receiver_factor(Angle theta_o, Angle half_angle) {
@@ -32,10 +36,20 @@ Optics::Optics(const Bench& bench, std::shared_ptr<const Brdf> sample)
       white_f_(bench.reference.f_per_sr),
       receiver_half_angle_(degrees(bench.apertures.receiver_half_angle_deg.value_or(0))),
       sample_(std::move(sample)) {
+  const auto radians_of = [](std::optional<double> half_angle_deg) { return degrees(half_angle_deg.value_or(0)).radians(); };
+  apertures_.source = radians_of(bench.apertures.source_half_angle_deg);
+  apertures_.receiver = radians_of(bench.apertures.receiver_half_angle_deg);
+  apertures_.source_order = apertures_.source > 0 ? source_order : 0;
+  apertures_.receiver_order = apertures_.receiver > 0 ? receiver_order : 0;
   if (effects_.certificate_error) white_f_ *= 1 + bench.reference.u_relative * normal_deviate({seed_, Draw::certificate});
 }
 
 double Optics::sample_f(const Pose& pose) const {
+  if (!apertures_.point()) {
+    double mean = 0;
+    for (const AperturePair& pair : aperture_pairs(pose, apertures_)) mean += pair.weight * sample_->eval(pair.wi, pair.wo).front();
+    return mean;
+  }
   if (const auto* model = dynamic_cast<const AnalyticBrdf*>(sample_.get())) return model->eval(pose).front();
   return sample_->eval(pose.wi(), pose.wo()).front();
 }

@@ -7,6 +7,7 @@
 #include "acquisition/bench.hpp"
 #include "acquisition/clock.hpp"
 #include "acquisition/devices.hpp"
+#include "brdf/aperture.hpp"
 #include "brdf/brdf.hpp"
 
 namespace gonio::acquisition::simulated {
@@ -24,7 +25,8 @@ struct Exposure {
 /// The signal [W] with the spot inside the receiver's field (measurement equation, relative form):
 ///   S = Phi(t) · f(pose) · ∫ cos theta dΩ over the receiver + dark + noise,   Phi(t) = source power · (1 + drift · t).
 /// The white is Lambertian with the certified f, apart from the certificate's error. Each effect only if the bench file asks for it.
-/// f is the first channel of the sample, taken at the nominal pose (no mean over the apertures).
+/// f is the first channel of the sample, its mean over the apertures the bench states (brdf/aperture.hpp); at the pose itself where both
+/// are 0.
 class Optics {
  public:
   Optics(const Bench& bench, std::shared_ptr<const Brdf> sample);
@@ -38,6 +40,7 @@ class Optics {
   std::uint64_t seed_;
   double source_power_w_, white_f_;
   Angle receiver_half_angle_;
+  ApertureRule apertures_;
   std::shared_ptr<const Brdf> sample_;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "fitting/aperture.hpp"
+#include "brdf/aperture.hpp"
 
 #include <cmath>
 #include <numbers>
 #include <utility>
 
-namespace gonio::fitting {
+namespace gonio {
 namespace {
 
 /// Nodes and weights of Gauss-Legendre on [0, 1], by Newton's method on the recurrence of the polynomials.
@@ -61,22 +61,30 @@ std::vector<DiscNode> disc_rule(int order) {
   return out;
 }
 
-std::size_t aperture_nodes(const GonioAngles& angles, const ApertureRule& rule, std::vector<LobeGeometry>& geometry,
-                           std::vector<double>& weight) {
+std::vector<AperturePair> aperture_pairs(const GonioAngles& angles, const ApertureRule& rule) {
   const Cone source = cone(angles.theta_i, angles.phi_i, rule.source, disc_rule(rule.source_order));
   const Cone receiver = cone(angles.theta_o, angles.phi_o, rule.receiver, disc_rule(rule.receiver_order));
-  const std::size_t first = weight.size();
+  std::vector<AperturePair> out;
   double sum = 0;
   for (std::size_t i = 0; i < source.direction.size(); ++i)
     for (std::size_t o = 0; o < receiver.direction.size(); ++o) {
       const double w = source.weight[i] * receiver.weight[o];
       if (!(w > 0)) continue;
-      geometry.push_back(lobe_geometry(source.direction[i], receiver.direction[o]));
-      weight.push_back(w);
+      out.push_back({source.direction[i], receiver.direction[o], w});
       sum += w;
     }
-  for (std::size_t k = first; k < weight.size(); ++k) weight[k] /= sum;
-  return weight.size() - first;
+  for (AperturePair& pair : out) pair.weight /= sum;
+  return out;
 }
 
-}  // namespace gonio::fitting
+std::size_t aperture_nodes(const GonioAngles& angles, const ApertureRule& rule, std::vector<LobeGeometry>& geometry,
+                           std::vector<double>& weight) {
+  const std::vector<AperturePair> pairs = aperture_pairs(angles, rule);
+  for (const AperturePair& pair : pairs) {
+    geometry.push_back(lobe_geometry(pair.wi, pair.wo));
+    weight.push_back(pair.weight);
+  }
+  return pairs.size();
+}
+
+}  // namespace gonio

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Means over apertures: exact for polynomials, right for lobes, and what they do to a peak.
-#include "fitting/aperture.hpp"
+#include "brdf/aperture.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -11,7 +11,6 @@
 #include "tests/check.hpp"
 
 using namespace gonio;
-using namespace gonio::fitting;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "brdf/coordinates.hpp"
 #include "brdf/lobe_geometry.hpp"
 
-namespace gonio::fitting {
+namespace gonio {
 
 /// A point of a cubature on the unit disc; the weights of a rule add up to 1.
 struct DiscNode {
@@ -29,12 +29,18 @@ struct ApertureRule {
   bool point() const noexcept { return source_order == 0 && receiver_order == 0; }
 };
 
-/// Geometries whose weighted mean of f is the reading f̄ of one sample:
+/// Pairs of directions whose weighted mean of f is the reading f̄ of one sample:
 ///   f̄ = ∫∫ f cos θi dωi cos θo dωo / ∫∫ cos θi dωi cos θo dωo over both cones, cut at the horizon,
 /// because a reading is divided by the projected solid angle of the receiver and by the irradiance of the source (measurement.md 1, 2).
 /// Uniform radiance over the source and uniform sensitivity over the receiver are assumed.
-/// Appends to both vectors; returns the number of nodes, 0 if the cones lie below the horizon.
+struct AperturePair {
+  Direction wi, wo;
+  double weight = 0;  ///< all of them add up to 1
+};
+/// Empty if the cones lie below the horizon.
+std::vector<AperturePair> aperture_pairs(const GonioAngles& angles, const ApertureRule& rule);
+/// The same as geometries for a model; appends to both vectors and returns the number of nodes.
 std::size_t aperture_nodes(const GonioAngles& angles, const ApertureRule& rule, std::vector<LobeGeometry>& geometry,
                            std::vector<double>& weight);
 
-}  // namespace gonio::fitting
+}  // namespace gonio
