@@ -51,14 +51,29 @@ class Unknown final : public Brdf {
 
 }  // namespace
 
+TEST_CASE("A reading is the mean of f over the stated apertures: a narrow peak comes out low") {
+  const auto narrow = std::make_shared<AnalyticBrdf>("phong", single_channel("Y"), std::vector<std::vector<double>>{{0, .3, 1e4}});
+  Exposure peak = lit();
+  peak.pose = {degrees(30), degrees(0), degrees(30), degrees(180)};
+  Bench bench = ideal_bench();
+  const double point = Optics(bench, narrow).signal_w(peak) / peak.pose.theta_o.cos();
+  bench.apertures.receiver_half_angle_deg = 0.5;
+  const double mean = Optics(bench, narrow).signal_w(peak) / projected_solid_angle(peak.pose.theta_o, degrees(0.5));
+  // The mean of exp(-s psi²/2) over a disc of radius a is (1 - exp(-x))/x with x = s a²/2.
+  const double a = degrees(0.5).radians(), x = 1e4 * a * a / 2;
+  CHECK(mean / point == Approx(-std::expm1(-x) / x).epsilon(1e-3));
+  CHECK(mean < 0.84 * point);
+}
+
 TEST_CASE("Without effects a reading is flux times f times the projected solid angle") {
   Bench bench = ideal_bench();
   const Exposure e = lit();
   const double f = sample()->eval(e.pose).front();
   CHECK(Optics(bench, sample()).signal_w(e) == Approx(bench.source_power_w * f * e.pose.theta_o.cos()).epsilon(1e-15));
+  const auto lambert = std::make_shared<AnalyticBrdf>("lambert", single_channel("Y"), std::vector<std::vector<double>>{{.5}});
   bench.apertures.receiver_half_angle_deg = 1;
-  CHECK(Optics(bench, sample()).signal_w(e) ==
-        Approx(bench.source_power_w * f * projected_solid_angle(e.pose.theta_o, degrees(1))).epsilon(1e-15));
+  CHECK(Optics(bench, lambert).signal_w(e) ==
+        Approx(bench.source_power_w * lambert->eval(e.pose).front() * projected_solid_angle(e.pose.theta_o, degrees(1))).epsilon(1e-14));
   Exposure white = e;
   white.white_in_beam = true;
   CHECK(Optics(ideal_bench(), sample()).signal_w(white) ==
