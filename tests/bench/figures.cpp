@@ -104,7 +104,7 @@ void report(const std::string& gonio, const std::filesystem::path& file, const s
   std::filesystem::path out = file;
   out += ".out";
   for (int k = -1; k < runs; ++k) {
-    Run one = run({gonio, "fit", file.string(), "--model", model, "--metric", "linear", "--json"}, out);
+    Run one = run({gonio, "fit", file.string(), "--model", model, "--json"}, out);
     last = std::move(one.document);
     if (k >= 0) wall.push_back(one.wall_s), memory.push_back(one.memory_mb);  // the first fills the page cache
   }
