@@ -50,7 +50,7 @@ std::vector<std::vector<double>> random_values(Random& random, std::size_t size,
 TEST_CASE("the sums of planes are those of two plain passes in long double, for every size and with holes") {
   Random random(gonio::test::seed);
   INFO("seed " << gonio::test::seed);
-  for (const std::size_t size : {1, 7, 8, 63, 511, 512, 513, 1000, 16200})
+  for (const std::size_t size : {1u, 7u, 8u, 63u, 511u, 512u, 513u, 1000u, 16200u})
     for (const bool broken : {false, true})
       for (const bool drop_negative : {false, true}) {
         INFO("size " << size << ", broken " << broken << ", negative dropped " << drop_negative);

@@ -144,7 +144,7 @@ Measured measure_fit(const Effort& effort) {
   std::vector<Way> ways;
   for (const double tolerance : {1e-1, 1e-2, 1e-4, 1e-6, 1e-10})
     ways.push_back({"solver on all samples", fmt::format("tolerance {:.0e}", tolerance), 1, false, tolerance});
-  for (const std::size_t stride : {1, 4, 16, 64})
+  for (const std::size_t stride : {1u, 4u, 16u, 64u})
     ways.push_back({stride == 1 ? "profile on all samples" : "profile on a part of the samples",
                     stride == 1 ? "" : fmt::format("1 of {}", stride), stride, false, 0});
   std::vector<Way> with_rows = ways;
