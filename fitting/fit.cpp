@@ -21,12 +21,6 @@
 namespace gonio::fitting {
 namespace {
 
-constexpr std::array<std::pair<Metric, const char*>, 5> metric_names{{{Metric::linear, "linear"},
-                                                                      {Metric::linear_cos, "linear-cos"},
-                                                                      {Metric::log, "log"},
-                                                                      {Metric::log1p, "log1p"},
-                                                                      {Metric::cbrt, "cbrt"}}};
-
 void require_usable(const FitOptions& options, const ModelInfo& info) {
   std::vector<Fault> faults;
   std::string known;
@@ -312,39 +306,6 @@ double FitLikelihood::aicc() const noexcept {
 
 double FitLikelihood::bic() const noexcept {
   return static_cast<double>(free_parameters) * std::log(static_cast<double>(n)) - 2 * log_likelihood;
-}
-
-const char* name(Metric metric) noexcept {
-  for (const auto& [value, text] : metric_names)
-    if (value == metric) return text;
-  return "linear";
-}
-
-std::optional<Metric> metric_named(std::string_view text) {
-  for (const auto& [value, known] : metric_names)
-    if (text == known) return value;
-  return std::nullopt;
-}
-
-const char* name(Status status) noexcept {
-  switch (status) {
-    case Status::converged: return "converged";
-    case Status::not_converged: return "not_converged";
-    case Status::no_usable_data: return "no_usable_data";
-    case Status::failed: return "failed";
-  }
-  return "failed";
-}
-
-const char* name(IntervalKind kind) noexcept {
-  switch (kind) {
-    case IntervalKind::interval: return "interval";
-    case IntervalKind::lower_bound: return "lower_bound";
-    case IntervalKind::upper_bound: return "upper_bound";
-    case IntervalKind::unidentified: return "unidentified";
-    case IntervalKind::fixed: return "fixed";
-  }
-  return "unidentified";
 }
 
 FitResult fit(const Observations& observations, const FitOptions& options) {

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "fitting/row_weights.hpp"
+
 namespace gonio::fitting {
 namespace {
 
@@ -22,8 +24,7 @@ constexpr double enough_repeats = 0.2;     // part of the samples that must be r
 constexpr std::size_t fewest_values = 30;  // below it a variance, let alone an outlier, cannot be told
 constexpr double median_of_normal = 0.6744897501960817, least_median = 0.75;  // part of it; below: the tails are heavy
 constexpr double most_outliers = 0.25;                                        // a larger part of the data is no contamination
-constexpr double rounding = 1e-12;    // of the largest value: exact data have at least this standard deviation
-constexpr double row_prior_dof = 10;  // a row's own scatter counts against the model of all rows like this many readings
+constexpr double rounding = 1e-12;  // of the largest value: exact data have at least this standard deviation
 
 using Fitted = std::vector<std::vector<double>>;
 
@@ -351,34 +352,6 @@ class Weigher {
   std::size_t count_ = 0;
   bool estimated_ = false, repeated_ = false;
 };
-
-/// Every row by its own scatter, drawn towards the model of all rows of its channel, which comes back.
-std::vector<VarianceModel> weigh_rows(Terms& terms) {
-  std::vector<VarianceModel> models;
-  for (ChannelTerms& channel : terms.channel) {
-    DeviationCells cells;
-    double largest = 0;
-    for (std::size_t row = 0; row < terms.rows(); ++row) {
-      const double n = static_cast<double>(channel.row_count[row]);
-      largest = std::max(largest, std::abs(channel.target[row]));
-      if (n > 1) cells.add(channel.target[row], 0, channel.row_within[row] / (n - 1), n - 1);
-    }
-    const VarianceModel model = variance_model(cells);
-    const double floor = rounding * rounding * largest * largest;
-    channel.within = channel.weighted_value2 = 0;
-    for (std::size_t row = 0; row < terms.rows(); ++row) {
-      const double n = static_cast<double>(channel.row_count[row]);
-      if (!(n > 0)) continue;
-      const double variance =
-          std::max((channel.row_within[row] + row_prior_dof * model(channel.target[row], 0)) / (n - 1 + row_prior_dof), floor);
-      channel.weight[row] = variance > 0 ? n / variance : 0;
-      channel.within += variance > 0 ? channel.row_within[row] / variance : 0;
-      channel.weighted_value2 += channel.weight[row] * channel.target[row] * channel.target[row];
-    }
-    models.push_back(model);
-  }
-  return models;
-}
 
 }  // namespace
 

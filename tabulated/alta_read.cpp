@@ -14,9 +14,8 @@
 #include "data-schemas/document.hpp"
 #include "tabulated/alta.hpp"
 #include "tabulated/csv_text.hpp"
-#include "tabulated/describe.hpp"
-#include "tabulated/direction_table.hpp"
 #include "tabulated/fault_list.hpp"
+#include "tabulated/opened_samples.hpp"
 #include "tabulated/quantity.hpp"
 
 namespace gonio::tabulated {
@@ -214,15 +213,7 @@ bool recognises_alta(std::string_view head, std::uintmax_t) {
 }
 
 Opened open_alta(const std::filesystem::path& path, const ReadOptions& options) {
-  const auto dataset = std::make_shared<const Dataset>(read_alta(path, options));
-  Opened out;
-  out.format = "alta";
-  out.dataset = dataset;
-  out.observations = observe(dataset);
-  out.brdf = std::make_shared<const DirectionTable>(dataset);
-  out.info = describe(*dataset);
-  out.masked = dataset->masked;
-  return out;
+  return opened_samples("alta", std::make_shared<const Dataset>(read_alta(path, options)));
 }
 
 }  // namespace gonio::tabulated

@@ -18,10 +18,9 @@
 
 #include "tabulated/brdf_exr.hpp"
 #include "tabulated/brdf_exr_channels.hpp"
-#include "tabulated/describe.hpp"
-#include "tabulated/direction_table.hpp"
 #include "tabulated/fault_list.hpp"
 #include "tabulated/metadata.hpp"
+#include "tabulated/opened_samples.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -239,17 +238,10 @@ Opened open_brdf_exr(const std::filesystem::path& path, const ReadOptions&) {
   const SampleTable table = read_brdf_exr(path);
   const auto dataset = std::make_shared<const Dataset>(samples_of(table));
   if (dataset->size() == 0) throw Error(ErrorKind::input, {path.string(), "a table with every cell empty", "at least one value"});
-  Opened out;
-  out.format = "brdf-exr";
-  out.dataset = dataset;
-  out.observations = observe(dataset);
-  out.brdf = std::make_shared<const DirectionTable>(dataset);
-  out.info = {{"table", fmt::format("{} incident x {} outgoing directions, {} of {} cells empty", table.incident.size(),
-                                    table.outgoing.size(), table.cell_count() - dataset->size(), table.cell_count())}};
-  const Description description = describe(*dataset);
-  out.info.insert(out.info.end(), description.begin(), description.end());
-  out.masked = dataset->masked;
-  out.simulated = dataset->simulated;
+  Opened out = opened_samples("brdf-exr", dataset);
+  out.info.insert(out.info.begin(),
+                  {"table", fmt::format("{} incident x {} outgoing directions, {} of {} cells empty", table.incident.size(),
+                                        table.outgoing.size(), table.cell_count() - dataset->size(), table.cell_count())});
   return out;
 }
 

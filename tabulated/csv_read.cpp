@@ -12,8 +12,7 @@
 #include "tabulated/csv.hpp"
 #include "tabulated/csv_table.hpp"
 #include "tabulated/csv_wavelengths.hpp"
-#include "tabulated/describe.hpp"
-#include "tabulated/direction_table.hpp"
+#include "tabulated/opened_samples.hpp"
 #include "tabulated/quantity.hpp"
 
 namespace gonio::tabulated {
@@ -215,16 +214,7 @@ bool recognises_csv(std::string_view head, std::uintmax_t) {
 }
 
 Opened open_csv(const std::filesystem::path& path, const ReadOptions& options) {
-  const auto dataset = std::make_shared<const Dataset>(read_csv(path, options));
-  Opened out;
-  out.format = "csv";
-  out.dataset = dataset;
-  out.observations = observe(dataset);
-  out.brdf = std::make_shared<const DirectionTable>(dataset);
-  out.info = describe(*dataset);
-  out.masked = dataset->masked;
-  out.simulated = dataset->simulated;
-  return out;
+  return opened_samples("csv", std::make_shared<const Dataset>(read_csv(path, options)));
 }
 
 }  // namespace gonio::tabulated

@@ -15,7 +15,8 @@ namespace gonio::test {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "gonio-test-XXXXXX").string();
+    // mkdtemp replaces six trailing X.
+    std::string pattern = (std::filesystem::temp_directory_path() / ("gonio-test-" + std::string(6, 'X'))).string();
     path_ = mkdtemp(pattern.data());
   }
   ~TemporaryFolder() {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "tests/tabulated/damaged_text.hpp"
 #include "tests/tabulated/faults_text.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -79,21 +80,11 @@ TEST_CASE("Every fault of a file is named at once") {
 TEST_CASE("No damaged file of ALTA's does more than raise an error") {
   const test::TemporaryFolder scratch;
   std::mt19937 random(20260705);
-  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   const std::string letters = std::string("0123456789.-+eE\t \"#\r\nDIMPARAVS_nan") + std::string("\0\xff", 2);
   const std::string seed = projected + "0.5 0.5 0 2\n0.5 -0.5 0 3\n0.5 0 0.8 1\n0.5 0 0 4\n";
   int read = 0, refused = 0;
   for (int round = 0; round < 4000; ++round) {
-    std::string text = seed;
-    for (std::size_t edit = 0, edits = 1 + below(3); edit < edits && !text.empty(); ++edit) {
-      const std::size_t at = below(text.size());
-      switch (below(4)) {
-        case 0: text[at] = letters[below(letters.size())]; break;
-        case 1: text.insert(at, 1, letters[below(letters.size())]); break;
-        case 2: text.erase(at, 1 + below(8)); break;
-        default: text.insert(at, text.substr(below(text.size()), below(30))); break;
-      }
-    }
+    const std::string text = test::damaged(seed, letters, random);
     INFO("round " << round << " of seed 20260705");
     try {
       const Dataset data = read_alta(scratch.file("damaged.dat", text), {});

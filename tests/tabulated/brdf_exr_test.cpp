@@ -15,8 +15,8 @@
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::test::read_file;
 using gonio::test::faults_of;
+using gonio::test::read_file;
 using gonio::test::TemporaryFolder;
 
 namespace {

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "tabulated/csv.hpp"
+#include "tests/tabulated/damaged_text.hpp"
 #include "tests/tabulated/faults_text.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -36,22 +37,11 @@ std::string with_metadata(const TemporaryFolder& scratch) {
 TEST_CASE("No damaged CSV file does more than raise an error") {
   const TemporaryFolder scratch;
   std::mt19937 random(20260703);
-  const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
   const std::string letters = std::string("0123456789.-+eE,;\t \"#\r\n\\:naNAinf") + std::string("\0\xff", 2);
   const std::string seeds[] = {plain, with_metadata(scratch)};
   int read = 0, refused = 0;
   for (int round = 0; round < 6000; ++round) {
-    std::string text = seeds[round % 2];
-    for (std::size_t edit = 0, edits = 1 + below(3); edit < edits && !text.empty(); ++edit) {
-      const std::size_t at = below(text.size());
-      switch (below(5)) {
-        case 0: text[at] = letters[below(letters.size())]; break;
-        case 1: text.insert(at, 1, letters[below(letters.size())]); break;
-        case 2: text.erase(at, 1 + below(8)); break;
-        case 3: text.resize(at); break;
-        default: text.insert(at, text.substr(below(text.size()), below(30))); break;
-      }
-    }
+    const std::string text = test::damaged(seeds[round % 2], letters, random);
     INFO("round " << round << " of seed 20260703");
     try {
       const Dataset data = read_csv(scratch.file("damaged.csv", text));

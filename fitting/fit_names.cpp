@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The words of the command line and of documents for what a fit is asked and what it finds.
+#include <array>
+#include <utility>
+
+#include "fitting/fit.hpp"
+
+namespace gonio::fitting {
+namespace {
+
+constexpr std::array<std::pair<Metric, const char*>, 5> metric_names{{{Metric::linear, "linear"},
+                                                                      {Metric::linear_cos, "linear-cos"},
+                                                                      {Metric::log, "log"},
+                                                                      {Metric::log1p, "log1p"},
+                                                                      {Metric::cbrt, "cbrt"}}};
+
+}  // namespace
+
+const char* name(Metric metric) noexcept {
+  for (const auto& [value, text] : metric_names)
+    if (value == metric) return text;
+  return "linear";
+}
+
+std::optional<Metric> metric_named(std::string_view text) {
+  for (const auto& [value, known] : metric_names)
+    if (text == known) return value;
+  return std::nullopt;
+}
+
+const char* name(Status status) noexcept {
+  switch (status) {
+    case Status::converged: return "converged";
+    case Status::not_converged: return "not_converged";
+    case Status::no_usable_data: return "no_usable_data";
+    case Status::failed: return "failed";
+  }
+  return "failed";
+}
+
+const char* name(IntervalKind kind) noexcept {
+  switch (kind) {
+    case IntervalKind::interval: return "interval";
+    case IntervalKind::lower_bound: return "lower_bound";
+    case IntervalKind::upper_bound: return "upper_bound";
+    case IntervalKind::unidentified: return "unidentified";
+    case IntervalKind::fixed: return "fixed";
+  }
+  return "unidentified";
+}
+
+}  // namespace gonio::fitting
