@@ -247,6 +247,7 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
   const ModelKernel& kernel = terms.kernel;
   FitResult result;
   result.model = options.model;
+  result.confidence = options.confidence;
   result.channels = channels;
   result.n_observations = terms.n_observations;
   result.n_masked = terms.n_masked;

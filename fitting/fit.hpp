@@ -101,6 +101,7 @@ struct FitResult {
   std::string reason;  ///< one sentence when not converged
   std::string model;
   Metric metric = Metric::linear;
+  double confidence = 0.95;  ///< of the intervals
   Channels channels;
   std::vector<FittedParameter> parameters;  ///< linear ones channel by channel, then nonlinear ones
   /// Values per channel in table order, ready for AnalyticBrdf.

@@ -13,6 +13,7 @@
 #include "tools/bench_source.hpp"
 #include "tools/brdf_source.hpp"
 #include "tools/fit_document.hpp"
+#include "tools/fit_lines.hpp"
 #include "tools/lobe_picture.hpp"
 #include "tools/measure.hpp"
 #include "tools/reduced_run.hpp"

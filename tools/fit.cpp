@@ -8,6 +8,7 @@
 #include "tools/fit_batch.hpp"
 #include "tools/fit_choice.hpp"
 #include "tools/fit_job.hpp"
+#include "tools/fit_lines.hpp"
 #include "tools/fit_merge.hpp"
 #include "tools/verbs.hpp"
 
@@ -51,7 +52,7 @@ int fit_together(const std::vector<std::string>& files, const FitRequest& reques
 int fit_verb(const Arguments& arguments, Console& console) {
   const auto start = Stopwatch::now();
   CLI::App app(
-      "Fits a model to samples or a table; prints parameters with 95 % profile intervals. Several files or a folder are fitted one by one, "
+      "Fits a model to samples or a table; prints parameters with profile intervals. Several files or a folder are fitted one by one, "
       "a JSON line each, or --together.",
       "fit");
   std::vector<std::string> names;

@@ -125,6 +125,7 @@ Json choice_document(const fitting::ModelChoice& choice, const MaskedCounts& mas
                        {"best", or_null(choice.best)},
                        {"simplest", or_null(choice.simplest)},
                        {"margin", choice.margin},
+                       {"confidence", choice.candidates.front().fit.confidence},
                        {"cross_validation", Json::object({{"over", name(choice.folds.over)},
                                                           {"folds", count(choice.folds.count)},
                                                           {"places", count(choice.folds.places)},

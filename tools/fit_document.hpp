@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A fit as a document and as lines for people.
+// A fit as a document.
 #pragma once
-
-#include <string>
-#include <vector>
 
 #include "fitting/fit.hpp"
 #include "tools/output.hpp"
@@ -19,8 +16,5 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
 /// Its members `parameters` and `errors`.
 Json parameters_document(const fitting::FitResult& result);
 Json errors_document(const fitting::FitErrors& errors);
-
-/// One line per parameter, metric and check.
-std::vector<std::string> fit_lines(const fitting::FitResult& result);
 
 }  // namespace gonio::tools

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "tools/fit_document.hpp"
+#include "tools/fit_lines.hpp"
 #include "tools/statistics_document.hpp"
 
 namespace gonio::tools {

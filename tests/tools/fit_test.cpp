@@ -87,3 +87,26 @@ TEST_CASE("fit --out writes the document that open and eval read as a model") {
   const auto value = run_gonio("eval '" + (folder / "fit.json").string() + "'", "10 0 20 90\n");
   CHECK(std::stod(value.out) == Approx(0.1).epsilon(1e-12));
 }
+
+TEST_CASE("fit says of its intervals the confidence that was asked for") {
+  const test::TemporaryFolder folder;
+  std::string text = "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value,u_value\n";
+  for (int theta = 0; theta < 80; theta += 2)
+    text += "30,0," + std::to_string(theta) + ",180," + std::to_string(.1 + std::exp(-.01 * (theta - 30) * (theta - 30))) + ",0.01\n";
+  test::write_file(folder / "lobe.csv", text);
+  const std::string fit = "fit '" + (folder / "lobe.csv").string() + "' --model blinn-phong --metric linear ";
+  const auto width = [](const Json& document) {
+    const Json& ends = document.at("parameters").elements().back().at("interval");
+    return ends.elements()[1].number() - ends.elements()[0].number();
+  };
+  const auto wide = run_gonio(fit + "--json"), narrow = run_gonio(fit + "--confidence 0.683 --json");
+  REQUIRE(wide.code == 0);
+  REQUIRE(narrow.code == 0);
+  CHECK(faults_of(narrow.json(), Schema::fit, "fit").empty());
+  CHECK(wide.json().at("confidence").number() == .95);
+  CHECK(narrow.json().at("confidence").number() == .683);
+  CHECK(width(wide.json()) / width(narrow.json()) == Approx(1.96).epsilon(.05));
+  const std::string lines = run_gonio(fit + "--confidence 0.683").out;
+  CHECK(lines.find("68.3 %") != lines.npos);
+  CHECK(lines.find("95") == lines.npos);
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/fit_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tools/output.hpp"
+
+namespace gonio::tools {
+namespace {
+
+std::string channel_name(const fitting::FitResult& result, const fitting::FittedParameter& parameter) {
+  return parameter.channel ? result.channels[*parameter.channel].name : std::string();
+}
+
+/// Decimals that show two significant digits of a width.
+int decimals_for(double width) { return width > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 15) : 15; }
+
+std::string with_uncertainty(double value, double u) {
+  const int digits = decimals_for(u);
+  return fmt::format("{:.{}f} ± {:.{}f}", value, digits, u, digits);
+}
+
+std::string interval_text(const fitting::FittedParameter& p, double confidence) {
+  using fitting::IntervalKind;
+  const std::string percent = fmt::format("{:g} %", 100 * confidence);
+  switch (p.kind) {
+    case IntervalKind::interval: {
+      const double low = p.low.value_or(NAN), high = p.high.value_or(NAN);
+      const int digits = decimals_for(high - low);
+      return fmt::format("{} interval [{:.{}f}, {:.{}f}]", percent, low, digits, high, digits);
+    }
+    case IntervalKind::lower_bound: return fmt::format("at least {:.6g} ({})", p.low.value_or(NAN), percent);
+    case IntervalKind::upper_bound: return fmt::format("at most {:.6g} ({})", p.high.value_or(NAN), percent);
+    case IntervalKind::unidentified: return "the data do not determine it";
+    case IntervalKind::fixed: return "held fixed";
+  }
+  return {};
+}
+
+/// Where the weights came from, in one line; empty where every sample counted alike.
+std::string weighting_line(const fitting::FitResult& result) {
+  const fitting::Weighting& weighting = result.weighting;
+  std::string text;
+  if (weighting.source != fitting::WeightSource::none) text = fmt::format("  weights from: {}", name(weighting.source));
+  if (weighting.n_outliers > 0)
+    text += fmt::format("{}{} outliers ({}{}{})", text.empty() ? "  " : "; ", weighting.n_outliers, name(weighting.robust),
+                        weighting.reason.empty() ? "" : ": ", weighting.reason);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> fit_lines(const fitting::FitResult& result) {
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("{} by {}: {}{}, {} samples", result.model, name(result.metric), name(result.status),
+                              result.reason.empty() ? "" : " (" + result.reason + ")", result.n_observations));
+  for (const auto& p : result.parameters) {
+    const std::string channel = channel_name(result, p);
+    const std::string value = p.sigma && *p.sigma > 0 ? with_uncertainty(p.value, *p.sigma) : fmt::format("{:.6g}", p.value);
+    lines.push_back(fmt::format("  {:<8} {:<8} {:<26} {}", p.name, channel, value, interval_text(p, result.confidence)));
+  }
+  std::string errors;
+  for (const auto& [metric, error] : {std::pair{"linear", result.errors.linear},
+                                      {"linear-cos", result.errors.linear_cos},
+                                      {"log", result.errors.log},
+                                      {"log1p", result.errors.log1p},
+                                      {"cbrt", result.errors.cbrt}})
+    if (!std::isnan(error)) errors += fmt::format("{}{} {:.4g}", errors.empty() ? "  rms error: " : ", ", metric, error);
+  if (result.errors.chi2_per_dof)
+    errors += fmt::format("{}chi2 per degree of freedom {:.3f}", errors.empty() ? "  " : "; ", *result.errors.chi2_per_dof);
+  if (!errors.empty()) lines.push_back(errors);
+  if (const std::string line = weighting_line(result); !line.empty()) lines.push_back(line);
+  if (result.aperture.on) lines.push_back("  " + result.aperture.reason);
+  for (const auto& minimum : result.other_minima)
+    lines.push_back(
+        fmt::format("  another minimum at {:.6g} with {:.4g} times the cost", fmt::join(minimum.nonlinear, ", "), minimum.cost_ratio));
+  for (const auto& line : check_lines(result.checks)) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace gonio::tools
