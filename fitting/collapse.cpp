@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -59,7 +60,8 @@ PlainBlock collapse_plain(const ObservationBlock& block) {
         {plane.count, scale * plane.mean, scale * scale * plane.within, 0, static_cast<std::size_t>(plane.count)});
   }
   out.collapsed.used = sums.used;
-  out.collapsed.masked = sums.masked;
+  out.collapsed.not_fitted.add(Omission::marked, sums.negative);
+  out.collapsed.not_fitted.add(Omission::no_value, sums.unknown);
   out.planes = std::move(sums.plane);
   return out;
 }
@@ -116,22 +118,22 @@ CollapsedBlock collapse_any(const Observations& observations, std::size_t index,
   CollapsedBlock out;
   for (std::size_t k = 0; k < block.size; ++k) {
     const bool valid = block.valid(k);
-    bool used = false, masked = false;
-    for (std::size_t c = 0; c < channels; ++c) {
-      const double f = block.f[c][k];
-      const double u = weighted ? block.u[c][k] : 1;
-      if (!valid || !std::isfinite(f) || !transform.defined(f, 1) || !(u > 0) || !std::isfinite(u)) {
-        masked = true;
-        continue;
-      }
+    std::optional<Omission> left_out = valid ? std::nullopt : std::optional(Omission::marked);
+    bool used = false;
+    for (std::size_t c = 0; c < channels && valid; ++c) {
+      const std::optional<Omission> why = omission(block, c, k, transform, 1, weighted);
+      left_out = told(left_out, why);
+      if (why) continue;
       used = true;
+      const double f = block.f[c][k], u = weighted ? block.u[c][k] : 1;
       const double slope = weighted ? transform.slope(f, 1) : 1;
       const double cos_i = cosine ? geometry[k].cos_i : 1;
       const double weight = cos_i * cos_i / (u * u * slope * slope);
       if (weight > 0) sums[c].add(weight, transform.value(f, 1));
       squares[c] += f * f / (u * u);
     }
-    out.used += used, out.masked += masked;
+    out.used += used;
+    if (left_out) out.not_fitted.add(*left_out);
   }
   for (std::size_t c = 0; c < channels; ++c) {
     out.channel.push_back(sums[c].sums());

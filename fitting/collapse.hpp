@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "brdf/observations.hpp"
+#include "fitting/not_fitted.hpp"
 #include "fitting/transform.hpp"
 #include "fitting/weighting.hpp"
 
@@ -17,8 +18,9 @@ struct BlockSums {
 
 struct CollapsedBlock {
   std::vector<BlockSums> channel;
-  std::size_t used = 0, masked = 0;  ///< samples with a value used, and with a value left out
-  std::vector<Outlier> outliers;     ///< by channel; `sample` within the block, `fitted` the mean of the row
+  std::size_t used = 0;           ///< samples with a value used
+  NotFitted not_fitted;           ///< those with a value left out; directions are not looked at
+  std::vector<Outlier> outliers;  ///< by channel; `sample` within the block, `fitted` the mean of the row
 };
 
 /// One block under one metric; `weighted`: w = 1/(u φ')². A plain table (f64, no u, metric linear) takes a loop that the compiler

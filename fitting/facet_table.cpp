@@ -166,17 +166,22 @@ FacetTable::Piece FacetTable::piece_of(const Observations& observations, std::si
   piece.sample.reserve(block.size);
   for (std::size_t k = 0; k < block.size; ++k) {
     std::size_t finite = 0;
-    bool valid = (drop_negative || block.valid(k)) && geometry.cos_i[k] >= 0 && geometry.cos_o[k] >= 0;
+    bool valid = drop_negative || block.valid(k);
     for (const std::vector<double>& column : f) {
       finite += std::isfinite(column[k]) ? 1 : 0;
       valid = valid && !(drop_negative && column[k] < 0);
     }
-    if (valid && finite > 0) {
+    if (!valid) {
+      piece.not_fitted.add(Omission::marked);
+    } else if (!(geometry.cos_i[k] >= 0 && geometry.cos_o[k] >= 0)) {
+      piece.not_fitted.add(Omission::below_horizon);
+    } else if (finite == 0) {
+      piece.not_fitted.add(Omission::no_value);
+    } else {
       piece.sample.push_back(static_cast<std::uint32_t>(k));
       piece.holes = piece.holes || finite < channels;
     }
   }
-  piece.masked = block.size - piece.sample.size();
   const auto picked = [&](const auto& from, auto&& convert, float padding) {
     std::vector<float> out(piece.sample.size());
     for (std::size_t j = 0; j < out.size(); ++j) out[j] = convert(from[piece.sample[j]]);
@@ -219,8 +224,9 @@ std::unique_ptr<FacetTable> FacetTable::of(const Observations& observations, con
 }
 
 void FacetTable::count_rows() {
-  rows_ = masked_ = 0;
-  for (const Piece& piece : pieces_) rows_ += piece.sample.size(), masked_ += piece.masked;
+  rows_ = 0;
+  not_fitted_ = {};
+  for (const Piece& piece : pieces_) rows_ += piece.sample.size(), not_fitted_ += piece.not_fitted;
 }
 
 FacetTable FacetTable::every(std::size_t stride) const {
@@ -232,7 +238,7 @@ FacetTable FacetTable::every(std::size_t stride) const {
     const Piece& all = pieces_[b];
     Piece& some = out.pieces_[b];
     some.value.resize(channels_);
-    some.masked = all.masked;
+    some.not_fitted = all.not_fitted;
     // Another start in every block, or a grid would give the same places in all of them.
     for (std::size_t k = (b * 7) % stride; k < all.sample.size(); k += stride) {
       some.sample.push_back(all.sample[k]);

@@ -11,6 +11,7 @@
 
 #include "brdf/observations.hpp"
 #include "fitting/linear_part.hpp"
+#include "fitting/not_fitted.hpp"
 #include "fitting/variance_model.hpp"
 
 namespace gonio::fitting {
@@ -27,7 +28,7 @@ class FacetTable {
 
   std::size_t rows() const noexcept { return rows_; }
   std::size_t channels() const noexcept { return channels_; }
-  std::size_t masked() const noexcept { return masked_; }
+  const NotFitted& not_fitted() const noexcept { return not_fitted_; }
   /// Every `stride`-th sample of every block. The numbers of the samples in their blocks: `samples(block)`.
   FacetTable every(std::size_t stride) const;
   const std::vector<std::uint32_t>& samples(std::size_t block) const { return pieces_[block].sample; }
@@ -51,7 +52,7 @@ class FacetTable {
     std::vector<float> tan2_h, cos_i, cos_o, schlick;
     std::vector<std::vector<float>> value, weight;  ///< per channel; no weight: 1
     std::vector<std::array<double, 3>> moments;     ///< per channel: Σ weight, Σ weight f, Σ weight f²
-    std::size_t masked = 0;
+    NotFitted not_fitted;
     void sum_values();
     bool holes = false;  ///< a channel misses a value that another one has
   };
@@ -60,7 +61,8 @@ class FacetTable {
   std::vector<double> sums_of(const Piece& piece, float alpha) const;
 
   LobeBatch lobe_ = nullptr;
-  std::size_t rows_ = 0, channels_ = 0, masked_ = 0;
+  std::size_t rows_ = 0, channels_ = 0;
+  NotFitted not_fitted_;
   std::vector<Piece> pieces_;
 };
 

@@ -250,7 +250,7 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
   result.confidence = options.confidence;
   result.channels = channels;
   result.n_observations = terms.n_observations;
-  result.n_masked = terms.n_masked;
+  result.not_fitted = terms.not_fitted;
   if (terms.n_observations == 0) {
     result.status = Status::no_usable_data;
     result.reason = "no sample can be used: all are masked, unknown or outside the domain of the metric";

@@ -12,6 +12,7 @@
 #include "brdf/observations.hpp"
 #include "fitting/checks/check.hpp"
 #include "fitting/convolution.hpp"
+#include "fitting/not_fitted.hpp"
 #include "fitting/weighting.hpp"
 
 namespace gonio::fitting {
@@ -114,7 +115,7 @@ struct FitResult {
   ApertureEffect aperture;         ///< whether means over the apertures were taken, and why
   Weighting weighting;             ///< where the weights came from, and the outliers
   std::size_t n_observations = 0;  ///< samples used
-  std::size_t n_masked = 0;        ///< cells of the observations that are no measurement, and f <= 0 under `log`
+  NotFitted not_fitted;            ///< samples of the observations with a value left out, by reason
   std::vector<OtherMinimum> other_minima;
   std::vector<Check> checks;  ///< energy_bound, at_bound, adequacy, second_minimum, identifiability
   double fit_s = 0;

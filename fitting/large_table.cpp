@@ -37,7 +37,7 @@ Terms rows_of(const Observations& observations, const ModelKernel& kernel, const
   terms.transform = {Metric::linear};
   terms.channel.resize(table.channels());
   terms.n_observations = table.rows();
-  terms.n_masked = table.masked();
+  terms.not_fitted = table.not_fitted();
   std::size_t first = 0;
   for (std::size_t b = 0; b < observations.block_count(); ++b) {
     const std::vector<std::size_t> samples(some.samples(b).begin(), some.samples(b).end());

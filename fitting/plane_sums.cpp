@@ -177,7 +177,7 @@ SummedPlanes sum_planes(std::span<const std::byte* const> planes, std::size_t si
     }
     if (all_used) {
       out.used += static_cast<std::size_t>(samples);
-      out.masked += count - static_cast<std::size_t>(samples);
+      out.negative += count - static_cast<std::size_t>(samples);
       continue;
     }
     // Some plane has a NaN or an infinity here.
@@ -186,7 +186,8 @@ SummedPlanes sum_planes(std::span<const std::byte* const> planes, std::size_t si
       for (const std::byte* plane : planes) finite += std::isfinite(number_at(plane, k)) ? 1 : 0;
       const bool valid_sample = valid[k - begin] != 0;
       out.used += valid_sample && finite > 0;
-      out.masked += !valid_sample || finite < planes.size();
+      out.negative += !valid_sample;
+      out.unknown += valid_sample && finite < planes.size();
     }
   }
   for (const Running& one : running) out.plane.push_back(finished(one));

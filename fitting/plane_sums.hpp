@@ -17,7 +17,9 @@ struct PlaneSums {
 
 struct SummedPlanes {
   std::vector<PlaneSums> plane;
-  std::size_t used = 0, masked = 0;  ///< samples with a value in some plane, and samples without one in some plane
+  std::size_t used = 0;      ///< samples with a value in some plane
+  std::size_t negative = 0;  ///< samples dropped for a negative number
+  std::size_t unknown = 0;   ///< the others without a value in some plane
 };
 
 /// `size` doubles from each of `planes`, which need not be aligned. NaN and the infinities are no values; with `drop_negative` a sample

@@ -78,7 +78,7 @@ void append(SufficientStatistics& to, const SufficientStatistics& part) {
   }
   for (std::size_t c = 0; c < to.channel.size(); ++c) to.channel[c].weighted_value2 += part.channel[c].weighted_value2;
   to.n_observations += part.n_observations;
-  to.n_masked += part.n_masked;
+  to.not_fitted += part.not_fitted;
   to.n_outliers += part.n_outliers;
 }
 
@@ -146,7 +146,7 @@ SufficientStatistics sufficient_statistics(const Observations& observations, con
   out.channels = observations.channels();
   out.channel.resize(out.channels.size());
   out.n_observations = terms.n_observations;
-  out.n_masked = terms.n_masked;
+  out.not_fitted = terms.not_fitted;
   out.n_outliers = terms.outliers.size();
 
   std::vector<GonioAngles> angles;
@@ -210,7 +210,7 @@ Terms make_terms(const SufficientStatistics& statistics, const ModelKernel& kern
   terms.weighted = statistics.weighted;
   terms.collapsed = true;
   terms.n_observations = statistics.n_observations;
-  terms.n_masked = statistics.n_masked;
+  terms.not_fitted = statistics.not_fitted;
   for (const GonioAngles& angles : statistics.angles) terms.geometry.push_back(lobe_geometry(angles));
   for (const double log_cosine : statistics.log_cosine) {
     LobeGeometry geometry;

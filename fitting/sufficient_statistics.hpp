@@ -32,7 +32,8 @@ struct SufficientStatistics {
   std::vector<GonioAngles> angles;  ///< of every row if depends_on is all
   std::vector<Channel> channel;
   std::vector<CorrelatedComponent> correlated;  ///< common to all samples
-  std::size_t n_observations = 0, n_masked = 0, n_outliers = 0;
+  std::size_t n_observations = 0, n_outliers = 0;
+  NotFitted not_fitted;
 
   std::size_t row_count() const noexcept { return depends_on == DependsOn::all ? angles.size() : log_cosine.size(); }
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "fitting/collapse.hpp"
@@ -66,7 +67,7 @@ void append(Terms& to, const Terms& part) {
   }
   extend(to.outliers, part.outliers);
   to.n_observations += part.n_observations;
-  to.n_masked += part.n_masked;
+  to.not_fitted += part.not_fitted;
 }
 
 Terms collapsed_block(const Observations& observations, std::size_t index, std::size_t first_sample, Transform transform, bool weighted,
@@ -90,7 +91,7 @@ Terms collapsed_block(const Observations& observations, std::size_t index, std::
   out.outliers = std::move(sums.outliers);
   for (Outlier& outlier : out.outliers) outlier.sample += first_sample;
   out.n_observations = sums.used;
-  out.n_masked = sums.masked;
+  out.not_fitted = sums.not_fitted;
   return out;
 }
 
@@ -103,16 +104,17 @@ Terms block_rows(const Observations& observations, std::size_t index, std::size_
   observations.geometry(index, geometry);
   for (std::size_t k = 0; k < block.size; ++k) {
     const LobeGeometry& g = geometry[k];
-    const bool valid = block.valid(k) && g.cos_i >= 0 && g.cos_o >= 0;
+    const std::optional<Omission> whole = omission(block, k, g.cos_i, g.cos_o);
+    std::optional<Omission> left_out = whole;
     std::vector<char> use(channels);
-    for (std::size_t c = 0; c < channels; ++c) {
-      const double f = block.f[c][k];
-      use[c] = valid && std::isfinite(f) && transform.defined(f, g.cos_i) && (!weighted || known(block.u[c][k]));
+    for (std::size_t c = 0; c < channels && !whole; ++c) {
+      const std::optional<Omission> why = omission(block, c, k, transform, g.cos_i, weighted);
+      use[c] = !why;
+      left_out = told(left_out, why);
     }
-    const auto used = std::count(use.begin(), use.end(), 1);
-    out.n_observations += used > 0;
-    out.n_masked += used < static_cast<std::ptrdiff_t>(channels);
-    if (used == 0) continue;
+    if (left_out) out.not_fitted.add(*left_out);
+    if (std::count(use.begin(), use.end(), 1) == 0) continue;
+    ++out.n_observations;
     out.geometry.push_back(g);
     out.sample.push_back(first_sample + k);
     for (std::size_t c = 0; c < channels; ++c) {

@@ -10,6 +10,7 @@
 #include "brdf/observations.hpp"
 #include "fitting/convolution.hpp"
 #include "fitting/model_kernel.hpp"
+#include "fitting/not_fitted.hpp"
 #include "fitting/row_sums.hpp"
 #include "fitting/transform.hpp"
 #include "fitting/weighting.hpp"
@@ -39,11 +40,12 @@ struct Terms {
   bool weighted = false;    ///< weights are 1/variance, so that the sum is a χ²
   bool pure_error = false;  ///< weights are 1/variance of the scatter of the data among themselves, whatever the model misses
   bool collapsed = false;   ///< a row is a whole block
-  std::size_t n_observations = 0, n_masked = 0;
+  std::size_t n_observations = 0;
+  NotFitted not_fitted;
   /// If set, the rows are a part of the data, with weights raised to stand for all; the profile is that of these sums, of all samples.
   std::shared_ptr<RowSums> sums;
   std::vector<double> represents;  ///< with `sums`: how many samples every row stands for
-  std::vector<Outlier> outliers;  ///< of collapsed rows, left out or weighed down there
+  std::vector<Outlier> outliers;   ///< of collapsed rows, left out or weighed down there
 
   std::size_t rows() const noexcept { return geometry.size(); }
 
@@ -55,11 +57,11 @@ struct Terms {
 };
 
 /// Which samples count and how much:
-///   - masked, with a NaN value, below the horizon, or f <= 0 under `log` (1 + f cos θi <= 0 under `log1p`): left out and counted;
-///   - the data carry u if every channel has it for at least half of its values; then values with unknown u are left out and counted too,
-///     otherwise every weight is 1;
+///   - what an Omission says (not_fitted.hpp) is left out and counted;
+///   - the data carry u if every channel has it for at least half of its values; then values with unknown u are left out too, otherwise
+///     every weight is 1;
 ///   - a sample with a zenith angle of exactly 90° is compared with the model's limit there.
-/// `n_observations` counts samples with a value used, `n_masked` those with a value left out.
+/// `n_observations` counts samples with a value used, `not_fitted` those with a value left out.
 ///
 /// Blocks over which θh is constant collapse to one row if the model depends on nothing else and the metric allows it (log1p does not):
 /// Σ w (φ - φ̂)² = W (φ̄ - φ̂)² + Σ w (φ - φ̄)², exact, with the centred sum formed apart.

@@ -129,7 +129,7 @@ int demo_verb(const Arguments& arguments, Console& console) {
   console.print(fmt::format("\nMeasured {} directions in {} of bench time ({:.1f} s here), on a simulated bench.", samples.dataset->size(),
                             duration_text(swept.bench_s), total_s));
   const auto* truth = dynamic_cast<const AnalyticBrdf*>(sample.get());
-  for (const std::string& line : fit_lines(fit)) console.print(line);
+  for (const std::string& line : fit_lines(fit, samples.masked)) console.print(line);
   if (truth != nullptr && truth->model().name == fit.model && !fit.values.empty())
     console.print(fmt::format("  against the truth: rho_d {}, rho_s {}, s {}", relative_error_text(fit.values[0][0], truth->values()[0][0]),
                               relative_error_text(fit.values[0][1], truth->values()[0][1]),

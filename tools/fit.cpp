@@ -43,7 +43,7 @@ int fit_together(const std::vector<std::string>& files, const FitRequest& reques
     if (console.json) console.print_json(document);
   }
   if (!console.json)
-    for (const std::string& line : fit_lines(outcome.result)) console.print(line);
+    for (const std::string& line : fit_lines(outcome.result, input.masked)) console.print(line);
   return outcome.result.status == fitting::Status::converged ? 0 : 1;
 }
 

@@ -139,10 +139,7 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
                                           {"bound", result.aperture.bound},
                                           {"n_samples", static_cast<std::int64_t>(result.aperture.n_samples)}}));
   document.set("n_observations", static_cast<std::int64_t>(result.n_observations));
-  Json counts = masked_document(masked);
-  const std::size_t in_fit = result.n_masked;
-  counts.set("not_fitted", static_cast<std::int64_t>(in_fit));
-  document.set("n_masked", counts);
+  document.set("n_masked", masked_document(masked, result.not_fitted));
   document.set("other_minima", minima_document(result));
   document.set("timings_s", Json::object({{"read", timings.read_s}, {"fit", timings.fit_s}, {"total", timings.total_s}}));
   document.set("checks", checks_array(result.checks));

@@ -54,7 +54,7 @@ std::string weighting_line(const fitting::FitResult& result) {
 
 }  // namespace
 
-std::vector<std::string> fit_lines(const fitting::FitResult& result) {
+std::vector<std::string> fit_lines(const fitting::FitResult& result, const MaskedCounts& masked) {
   std::vector<std::string> lines;
   lines.push_back(fmt::format("{} by {}: {}{}, {} samples", result.model, name(result.metric), name(result.status),
                               result.reason.empty() ? "" : " (" + result.reason + ")", result.n_observations));
@@ -74,6 +74,7 @@ std::vector<std::string> fit_lines(const fitting::FitResult& result) {
     errors += fmt::format("{}chi2 per degree of freedom {:.3f}", errors.empty() ? "  " : "; ", *result.errors.chi2_per_dof);
   if (!errors.empty()) lines.push_back(errors);
   if (const std::string line = weighting_line(result); !line.empty()) lines.push_back(line);
+  if (const std::string text = masked_text(masked, result.not_fitted); !text.empty()) lines.push_back("  " + text);
   if (result.aperture.on) lines.push_back("  " + result.aperture.reason);
   for (const auto& minimum : result.other_minima)
     lines.push_back(

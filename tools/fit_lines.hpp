@@ -9,7 +9,7 @@
 
 namespace gonio::tools {
 
-/// One line per parameter, metric and check.
-std::vector<std::string> fit_lines(const fitting::FitResult& result);
+/// One line per parameter, metric and check; `masked` was no measurement when the data were read.
+std::vector<std::string> fit_lines(const fitting::FitResult& result, const MaskedCounts& masked);
 
 }  // namespace gonio::tools

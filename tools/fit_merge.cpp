@@ -35,7 +35,7 @@ int fit_merged(const std::vector<std::string>& files, const FitRequest& request,
     if (console.json) console.print_json(document);
   }
   if (!console.json)
-    for (const std::string& line : fit_lines(result)) console.print(line);
+    for (const std::string& line : fit_lines(result, all.masked)) console.print(line);
   return result.status == fitting::Status::converged ? 0 : 1;
 }
 

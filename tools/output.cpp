@@ -103,6 +103,29 @@ Json masked_document(const MaskedCounts& masked) {
                        {"blocked", count(masked.blocked)}});
 }
 
+Json masked_document(const MaskedCounts& masked, const fitting::NotFitted& not_fitted) {
+  Json reasons = Json::object();
+  for (const fitting::Omission omission : fitting::every_omission)
+    reasons.set(name(omission), static_cast<std::int64_t>(not_fitted[omission]));
+  Json out = masked_document(masked);
+  out.set("not_fitted", static_cast<std::int64_t>(not_fitted.total()));
+  out.set("not_fitted_by_reason", reasons);
+  return out;
+}
+
+std::string masked_text(const MaskedCounts& masked, const fitting::NotFitted& not_fitted) {
+  using fitting::Omission;
+  std::string text;
+  for (const auto& [count, what] : {std::pair{masked.nan + not_fitted[Omission::no_value], "NaN"},
+                                    {std::max(masked.missing, not_fitted[Omission::marked]), "marked as missing"},
+                                    {masked.below_horizon + not_fitted[Omission::below_horizon], "below the horizon"},
+                                    {masked.blocked, "blocked"},
+                                    {not_fitted[Omission::no_uncertainty], "without an uncertainty"},
+                                    {not_fitted[Omission::outside_metric], "outside the domain of the metric"}})
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "masked: " : ", ", count, what);
+  return text;
+}
+
 Json checks_array(const std::vector<fitting::Check>& checks) {
   Json out = Json::array();
   for (const fitting::Check& check : checks) out.push_back(check_document(check));

@@ -8,6 +8,7 @@
 
 #include "data-schemas/document.hpp"
 #include "fitting/checks/check.hpp"
+#include "fitting/not_fitted.hpp"
 #include "tabulated/open.hpp"
 
 namespace gonio::tools {
@@ -20,6 +21,11 @@ const tabulated::Format& writable_format(const std::string& name);
 const tabulated::Format& format_of_name(const std::string& out);
 
 Json masked_document(const MaskedCounts& masked);
+/// The same with what a fit left out of what was read.
+Json masked_document(const MaskedCounts& masked, const fitting::NotFitted& not_fitted);
+/// Both for people, `masked: 12 NaN, 3 below the horizon`; empty if nothing was left out. Cells marked in a table were counted as missing
+/// when it was read, and are told once.
+std::string masked_text(const MaskedCounts& masked, const fitting::NotFitted& not_fitted);
 
 /// A value, or null where there is none.
 template <class T>

@@ -89,8 +89,6 @@ Json statistics_document(const Shard& shard, Json context) {
   }
   for (const CorrelatedComponent& component : s.correlated)
     correlated.push_back(Json::object({{"name", component.name}, {"u", component.u}}));
-  Json masked = masked_document(shard.masked);
-  masked.set("not_fitted", count(s.n_masked));
   return Json::object({{"context", std::move(context)},
                        {"options", shard.options},
                        {"depends_on", fitting::name(s.depends_on)},
@@ -103,7 +101,7 @@ Json statistics_document(const Shard& shard, Json context) {
                        {"correlated", std::move(correlated)},
                        {"n_observations", count(s.n_observations)},
                        {"n_outliers", count(s.n_outliers)},
-                       {"n_masked", std::move(masked)}});
+                       {"n_masked", masked_document(shard.masked, s.not_fitted)}});
 }
 
 Shard statistics_from(const Json& document, const std::string& source) {
@@ -150,7 +148,8 @@ Shard statistics_from(const Json& document, const std::string& source) {
   const Json& masked = document.at("n_masked");
   out.masked = {size_from(masked.at("nan")), size_from(masked.at("missing")), size_from(masked.at("below_horizon")),
                 size_from(masked.at("blocked"))};
-  s.n_masked = masked.contains("not_fitted") ? size_from(masked.at("not_fitted")) : 0;
+  for (const fitting::Omission omission : fitting::every_omission)
+    s.not_fitted.add(omission, size_from(masked.at("not_fitted_by_reason").at(name(omission))));
   if (!faults.empty()) throw Error(ErrorKind::input, message, std::move(faults));
   return out;
 }

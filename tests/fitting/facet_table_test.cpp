@@ -121,11 +121,11 @@ TEST_CASE("there is no facet table for another model, and none with holes") {
   CHECK_FALSE(FacetTable::of(*observe(data), model_kernel("blinn-phong"), 1));
   data->f[1][17] = NAN;
   CHECK_FALSE(FacetTable::of(*observe(data), model_kernel("ggx"), 1));
-  data->f[0][17] = data->f[2][17] = NAN;  // no value in any channel: masked
+  data->f[0][17] = data->f[2][17] = NAN;  // no value in any channel
   const auto table = FacetTable::of(*observe(data), model_kernel("ggx"), 1);
   REQUIRE(table);
   CHECK(table->rows() == 99);
-  CHECK(table->masked() == 1);
+  CHECK(table->not_fitted()[Omission::no_value] == 1);
 }
 
 TEST_CASE("GGX with either shadowing has a facet table, so that large tables of it take the short way") {

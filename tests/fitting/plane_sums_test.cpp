@@ -60,15 +60,17 @@ TEST_CASE("the sums of planes are those of two plain passes in long double, for 
         std::vector<bool> sample(size, true);
         for (std::size_t k = 0; k < size; ++k)
           for (const auto& plane : values) sample[k] = sample[k] && !(drop_negative && plane[k] < 0);
-        std::size_t used = 0, masked = 0;
+        std::size_t used = 0, negative = 0, unknown = 0;
         for (std::size_t k = 0; k < size; ++k) {
           std::size_t finite = 0;
           for (const auto& plane : values) finite += std::isfinite(plane[k]) ? 1 : 0;
           used += sample[k] && finite > 0;
-          masked += !sample[k] || finite < values.size();
+          negative += !sample[k];
+          unknown += sample[k] && finite < values.size();
         }
         CHECK(found.used == used);
-        CHECK(found.masked == masked);
+        CHECK(found.negative == negative);
+        CHECK(found.unknown == unknown);
         for (std::size_t c = 0; c < values.size(); ++c) {
           long double count = 0, sum = 0, square = 0;
           double least = INFINITY, most = -INFINITY;

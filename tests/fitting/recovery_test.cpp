@@ -165,14 +165,14 @@ TEST_CASE("NaN and infinite values, readings below the horizon and f <= 0 under 
   options.model = "phong";
   const FitResult linear = fit(*observe(data), options);
   CHECK(linear.n_observations == clean);
-  CHECK(linear.n_masked == 3);
+  CHECK(linear.not_fitted.total() == 3);
   CHECK(linear.values[0][2] == Approx(12).epsilon(1e-6));
   add(30, 0);
   add(30, -1);
   options.metric = Metric::log;
   const FitResult log = fit(*observe(data), options);
   CHECK(log.n_observations == clean);
-  CHECK(log.n_masked == 5);
+  CHECK(log.not_fitted.total() == 5);
   CHECK(log.values[0][2] == Approx(12).epsilon(1e-6));
 }
 
@@ -180,11 +180,11 @@ TEST_CASE("a few unknown uncertainties leave their samples out, mostly unknown o
   auto data = readings(lobe("blinn-phong", .2, .3, 20), polar_grid({10, 40}, 10, 45), {1e-3, 0, 0}, 4);
   for (std::size_t k = 0; k < 5; ++k) data->u[0][k] = std::nan("");
   const FitResult few = fit(*observe(data), {});
-  CHECK(few.n_masked == 5);
+  CHECK(few.not_fitted.total() == 5);
   CHECK(few.errors.chi2_per_dof);
   for (std::size_t k = 0; k + 10 < data->size(); ++k) data->u[0][k] = std::nan("");
   const FitResult most = fit(*observe(data), {});
-  CHECK(most.n_masked == 0);
+  CHECK(most.not_fitted.total() == 0);
   CHECK(!most.errors.chi2_per_dof);
 }
 
@@ -197,7 +197,7 @@ TEST_CASE("nothing usable is a status, not an exception") {
   data->f[0].assign(3, std::nan(""));
   const FitResult result = fit(*observe(data), {});
   CHECK(result.status == Status::no_usable_data);
-  CHECK(result.n_masked == 3);
+  CHECK(result.not_fitted.total() == 3);
   CHECK(!result.reason.empty());
 }
 

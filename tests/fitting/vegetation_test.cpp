@@ -59,6 +59,6 @@ TEST_CASE("the vegetation data give the independently refitted Phong parameters 
     CHECK(result.values[0][1] == Approx(row.rho_s).margin(1e-3));
     CHECK(result.values[0][2] == Approx(row.s).margin(1e-3));
     CHECK(result.n_observations == 14500);
-    CHECK(result.n_masked == 0);
+    CHECK(result.not_fitted.total() == 0);
   }
 }

@@ -110,3 +110,35 @@ TEST_CASE("fit says of its intervals the confidence that was asked for") {
   CHECK(lines.find("68.3 %") != lines.npos);
   CHECK(lines.find("95") == lines.npos);
 }
+
+TEST_CASE("a row of NaN and a row below the horizon are masked and reported, and change nothing else") {
+  const test::TemporaryFolder folder;
+  std::string text = "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,r,g\n";
+  for (int theta = 0; theta < 80; theta += 2) {
+    const std::string f = std::to_string(.1 + std::exp(-.01 * (theta - 30) * (theta - 30)));
+    text += "30,0," + std::to_string(theta) + ",180," + f + "," + f + "\n";
+  }
+  test::write_file(folder / "clean.csv", text);
+  const std::string masked_rows = text + "30,0,30,180,nan,nan\n30,0,100,180,0.1,0.1\n30,0,20,180,-1,-1\n";
+  test::write_file(folder / "masked.csv", masked_rows);
+  test::write_file(folder / "flawed.csv", masked_rows + "30,0,40,180,nan,0.47\n");
+  const auto fit = [&](const char* file, const char* flags) {
+    return run_gonio("fit '" + (folder / file).string() + "' --model blinn-phong --metric linear " + flags);
+  };
+  const auto clean = fit("clean.csv", "--json"), flawed = fit("flawed.csv", "--json");
+  INFO(flawed.err);
+  REQUIRE(flawed.code == 0);
+  const Json document = flawed.json(), masked = document.at("n_masked");
+  CHECK(faults_of(document, Schema::fit, "fit").empty());
+  CHECK(masked.at("nan").integer() == 1);
+  CHECK(masked.at("below_horizon").integer() == 1);
+  CHECK(masked.at("missing").integer() == 1);
+  CHECK(masked.at("not_fitted").integer() == 1);
+  CHECK(masked.at("not_fitted_by_reason").at("no_value").integer() == 1);
+  CHECK(document.at("n_observations").integer() == clean.json().at("n_observations").integer() + 1);
+  const Json same = fit("masked.csv", "--json").json();
+  for (const char* name : {"rho_d", "rho_s", "s"}) CHECK(parameter(same, name) == parameter(clean.json(), name));
+  CHECK(fit("masked.csv", "").out.find("masked: 1 NaN, 1 marked as missing, 1 below the horizon\n") != std::string::npos);
+  CHECK(fit("flawed.csv", "").out.find("masked: 2 NaN, 1 marked as missing, 1 below the horizon\n") != std::string::npos);
+  CHECK(fit("clean.csv", "").out.find("masked") == std::string::npos);
+}
