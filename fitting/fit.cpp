@@ -258,11 +258,16 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
   }
   std::vector<Solution> solutions;
   const auto solved = [&](Terms& these, std::size_t first) {
+    Laps lap;
     const SolveOptions how = solve_options(options, kernel, these.channel.size());
     weigher.free_parameters = free_parameters(how);
     if (!these.sums)
       add_weighting(result.weighting, weigh_and_convolve(these, how, weigher, observations, options, result.aperture), first);
-    return solve(these, how, correlated);
+    result.stages.weights_s += lap();
+    Solution solution = solve(these, how, correlated);
+    result.stages.scan_s += solution.scan_s;
+    result.stages.intervals_s += solution.intervals_s;
+    return solution;
   };
   if (options.per_channel && terms.channel.size() > 1) {
     for (std::size_t c = 0; c < terms.channel.size(); ++c) {
@@ -320,19 +325,29 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   const Metric minimised = cancels ? Metric::linear : metric;
   std::optional<LargeTable> large;
   Weighting judged;
+  StageTimes stages;
+  Laps lap;
   if (!options.per_channel) large = large_table(observations, kernel, minimised, options.threads);
+  stages.collapse_s = lap();
   if (large && !weigh_by_part(*large, weigher, solve_options(options, kernel, observations.channels().size()), judged)) large.reset();
+  stages.weights_s = lap();
   Terms terms = large ? std::move(large->terms) : make_terms(observations, kernel, minimised, options.threads, weigher.robust);
+  stages.collapse_s += lap();
   const auto repeats = weigher.estimate_variance && !terms.weighted && !terms.collapsed && !terms.sums ? repeated_readings(observations)
                                                                                                        : std::vector<RepeatedReadings>{};
   weigher.repeats = repeats;
+  stages.weights_s += lap();
   FitResult result = fit_terms(terms, observations.channels(), &observations, options, weigher, observations.correlated());
+  result.stages.collapse_s = stages.collapse_s;
+  result.stages.weights_s += stages.weights_s;
   if (large) result.weighting = std::move(judged);
   result.metric = metric;
   if (!result.values.empty()) {
+    lap();
     const auto chi2_per_dof = result.errors.chi2_per_dof;
     result.errors = fit_errors(observations, kernel, result.values, options.threads);
     result.errors.chi2_per_dof = chi2_per_dof;
+    result.stages.errors_s = lap();
   }
   add_angles(result.weighting.outliers, observations);
   result.fit_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

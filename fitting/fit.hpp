@@ -13,6 +13,7 @@
 #include "fitting/checks/check.hpp"
 #include "fitting/convolution.hpp"
 #include "fitting/not_fitted.hpp"
+#include "fitting/stage_times.hpp"
 #include "fitting/weighting.hpp"
 
 namespace gonio::fitting {
@@ -118,7 +119,8 @@ struct FitResult {
   NotFitted not_fitted;            ///< samples of the observations with a value left out, by reason
   std::vector<OtherMinimum> other_minima;
   std::vector<Check> checks;  ///< energy_bound, at_bound, adequacy, second_minimum, identifiability
-  double fit_s = 0;
+  StageTimes stages;
+  double fit_s = 0;  ///< all of it
 };
 
 /// Global in the nonlinear parameters: linear parameters are eliminated by bounded least squares, the profile over the others is scanned

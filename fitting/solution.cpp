@@ -44,6 +44,7 @@ Matrix Solution::covariance_of(std::size_t channel) const {
 Solution solve(Terms& terms, const SolveOptions& options, const std::vector<CorrelatedComponent>& correlated) {
   const SearchSpace space(terms.kernel, options.nonlinear, options.alike);
   Solution solution;
+  Laps lap;
   Found found;
   for (int round = 0;; ++round) {
     const Profile profile(terms, options.limits);
@@ -65,7 +66,9 @@ Solution solve(Terms& terms, const SolveOptions& options, const std::vector<Corr
     solution.cost = all[best].cost;
     for (std::size_t k = 0; k < all.size(); ++k)
       if (k != best) solution.others.push_back(std::move(all[k]));
+    solution.scan_s = lap();
     estimate(solution, profile, space, found, options, correlated);
+    solution.intervals_s = lap();
     return solution;
   }
 }

@@ -52,6 +52,7 @@ struct Solution {
   /// Of all parameters, the linear ones channel by channel, then the nonlinear ones; correlated components included. A parameter without
   /// a sigma has NaN there.
   Matrix covariance;
+  double scan_s = 0, intervals_s = 0;  ///< StageTimes
 
   /// The block of one channel: its linear parameters, then the nonlinear ones.
   Matrix covariance_of(std::size_t channel) const;

@@ -94,7 +94,6 @@ int demo_verb(const Arguments& arguments, Console& console) {
   options.model = "blinn-phong";
   FitTimings timings;
   const fitting::FitResult fit = fitting::fit(*samples.observations, options);
-  timings.fit_s = fit.fit_s;
   timings.total_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   write_file_atomically(
       files.fit(),

@@ -141,7 +141,14 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
   document.set("n_observations", static_cast<std::int64_t>(result.n_observations));
   document.set("n_masked", masked_document(masked, result.not_fitted));
   document.set("other_minima", minima_document(result));
-  document.set("timings_s", Json::object({{"read", timings.read_s}, {"fit", timings.fit_s}, {"total", timings.total_s}}));
+  document.set("timings_s", Json::object({{"read", timings.read_s},
+                                          {"fit", result.fit_s},
+                                          {"total", timings.total_s},
+                                          {"collapse", result.stages.collapse_s},
+                                          {"weights", result.stages.weights_s},
+                                          {"scan", result.stages.scan_s},
+                                          {"intervals", result.stages.intervals_s},
+                                          {"errors", result.stages.errors_s}}));
   document.set("checks", checks_array(result.checks));
   return document;
 }

@@ -7,9 +7,9 @@
 
 namespace gonio::tools {
 
-/// Seconds spent, as `timings_s` of a fit prints them.
+/// Seconds spent outside the fit; `timings_s` of the document holds those inside too.
 struct FitTimings {
-  double read_s = 0, fit_s = 0, total_s = 0;
+  double read_s = 0, total_s = 0;
 };
 /// The document of `gonio fit` (data-schemas/fit.schema.json); `options` are the flags that shaped the result, null: none given.
 Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, const FitTimings& timings, Json context, Json options = {});

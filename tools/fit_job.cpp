@@ -58,7 +58,6 @@ FitOutcome fit_input(const FitInput& input, const fitting::FitOptions& options) 
   FitOutcome out;
   out.result = fitting::fit(*fitting::join(input.parts), options);
   out.timings.read_s = input.read_s;
-  out.timings.fit_s = out.result.fit_s;
   return out;
 }
 

@@ -26,7 +26,6 @@ int fit_merged(const std::vector<std::string>& files, const FitRequest& request,
   FitTimings timings;
   timings.read_s = seconds_since(start);
   const fitting::FitResult result = fitting::fit(all.statistics, options);
-  timings.fit_s = result.fit_s;
   if (console.json || !out.empty()) {
     Json where_from = context(inputs, std::nullopt, all.simulated);
     timings.total_s = seconds_since(start);
