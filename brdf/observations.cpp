@@ -2,6 +2,7 @@
 #include "brdf/observations.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace gonio {
@@ -74,6 +75,17 @@ void Observations::facet_geometry(std::size_t index, FacetGeometry& out) const {
     out.cos_i[k] = static_cast<float>(all[k].cos_i);
     out.cos_o[k] = static_cast<float>(all[k].cos_o);
     out.cos_d[k] = static_cast<float>(all[k].cos_d);
+  }
+}
+
+void Observations::mirror_geometry(std::size_t index, MirrorGeometry& out) const {
+  std::vector<LobeGeometry> all;
+  geometry(index, all);
+  for (auto* column : {&out.sin2_half_psi, &out.cos_i, &out.cos_o}) column->resize(all.size());
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    out.sin2_half_psi[k] = -0.5 * std::expm1(all[k].log_cos_psi);
+    out.cos_i[k] = all[k].cos_i;
+    out.cos_o[k] = all[k].cos_o;
   }
 }
 

@@ -66,6 +66,12 @@ struct FacetGeometry {
   std::vector<float> cos_i, cos_o, cos_d;  ///< as in LobeGeometry
 };
 
+/// What a lobe about the mirror direction needs of the samples of a block.
+struct MirrorGeometry {
+  std::vector<double> sin2_half_psi;  ///< sin²(psi/2) = (1 - cos psi)/2 of LobeGeometry's psi; 0.5 or more where there is no lobe
+  std::vector<double> cos_i, cos_o;   ///< as in LobeGeometry
+};
+
 /// Samples of a BRDF in blocks. No copy of a table is made: a block points into the mapping or the data set, which must outlive it.
 /// Every member is safe to call from several threads.
 class Observations {
@@ -84,6 +90,9 @@ class Observations {
   virtual void geometry_of(std::size_t index, std::span<const std::size_t> samples, std::vector<LobeGeometry>& out) const;
   /// What microfacet lobes need of every sample of a block; `out` is resized. A table overrides this where its grid makes it cheap.
   virtual void facet_geometry(std::size_t index, FacetGeometry& out) const;
+  /// What a lobe about the mirror direction needs of every sample of a block; `out` is resized. A table overrides this where its grid
+  /// makes it cheap.
+  virtual void mirror_geometry(std::size_t index, MirrorGeometry& out) const;
   /// The angles of every sample of a block; `out` is resized.
   virtual void angles(std::size_t index, std::vector<GonioAngles>& out) const = 0;
   /// Half-angles over which the samples of a block are means; unknown for data that do not say.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "brdf/error.hpp"
+#include "fitting/angle_bins.hpp"
 #include "fitting/fit_checks.hpp"
 #include "fitting/fit_errors.hpp"
 #include "fitting/large_table.hpp"
@@ -249,6 +250,7 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
   result.model = options.model;
   result.confidence = options.confidence;
   result.channels = channels;
+  result.rows = {terms.rows_of, terms.sums ? terms.sums->rows() : terms.rows(), terms.approximation};
   result.n_observations = terms.n_observations;
   result.not_fitted = terms.not_fitted;
   if (terms.n_observations == 0) {
@@ -331,7 +333,11 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   stages.collapse_s = lap();
   if (large && !weigh_by_part(*large, weigher, solve_options(options, kernel, observations.channels().size()), judged)) large.reset();
   stages.weights_s = lap();
-  Terms terms = large ? std::move(large->terms) : make_terms(observations, kernel, minimised, options.threads, weigher.robust);
+  std::optional<Terms> bins;
+  if (!large) bins = binned_terms(observations, kernel, minimised, options.ignore_apertures, weigher.robust, options.threads);
+  Terms terms = large  ? std::move(large->terms)
+                : bins ? std::move(*bins)
+                       : make_terms(observations, kernel, minimised, options.threads, weigher.robust);
   stages.collapse_s += lap();
   const auto repeats = weigher.estimate_variance && !terms.weighted && !terms.collapsed && !terms.sums ? repeated_readings(observations)
                                                                                                        : std::vector<RepeatedReadings>{};

@@ -80,6 +80,17 @@ struct Determined {
   double low = 0, high = 0;  ///< of its profile interval
 };
 
+/// What one row of the minimised sum is.
+enum class RowsOf { samples, table_rows, directions, psi_bins, theta_h_bins };
+const char* name(RowsOf rows) noexcept;
+
+/// The rows a fit was made of.
+struct FitRows {
+  RowsOf of = RowsOf::samples;
+  std::size_t count = 0;
+  std::string reason;  ///< one sentence on what is not exact in them and why; empty: the rows lose nothing
+};
+
 /// How likely the data are under the fitted model, of normal residuals: for the choice of a model on the same data, metric and weights.
 struct FitLikelihood {
   double log_likelihood = 0;
@@ -113,8 +124,9 @@ struct FitResult {
   std::vector<std::vector<double>> correlation;
   std::vector<Determined> determined;
   FitLikelihood likelihood;
-  ApertureEffect aperture;         ///< whether means over the apertures were taken, and why
-  Weighting weighting;             ///< where the weights came from, and the outliers
+  ApertureEffect aperture;  ///< whether means over the apertures were taken, and why
+  Weighting weighting;      ///< where the weights came from, and the outliers
+  FitRows rows;
   std::size_t n_observations = 0;  ///< samples used
   NotFitted not_fitted;            ///< samples of the observations with a value left out, by reason
   std::vector<OtherMinimum> other_minima;

@@ -38,6 +38,17 @@ const char* name(Status status) noexcept {
   return "failed";
 }
 
+const char* name(RowsOf rows) noexcept {
+  switch (rows) {
+    case RowsOf::samples: return "samples";
+    case RowsOf::table_rows: return "table_rows";
+    case RowsOf::directions: return "directions";
+    case RowsOf::psi_bins: return "psi_bins";
+    case RowsOf::theta_h_bins: return "theta_h_bins";
+  }
+  return "samples";
+}
+
 const char* name(IntervalKind kind) noexcept {
   switch (kind) {
     case IntervalKind::interval: return "interval";

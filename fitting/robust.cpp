@@ -81,6 +81,11 @@ double outlier_limit(std::size_t n) noexcept {
   return normal_upper_quantile(false_alarm / (2 * static_cast<double>(std::max<std::size_t>(1, n))));
 }
 
+double outlier_limit(std::size_t n, double dof) noexcept {
+  const double z = outlier_limit(n) * (8 * dof + 3) / (8 * dof + 1);
+  return std::sqrt(dof * std::expm1(z * z / dof));
+}
+
 double median_of(std::span<double> values) noexcept {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -96,19 +101,24 @@ bool in_runs(std::span<const std::size_t> samples) noexcept {
   return 2 * beside > samples.size();
 }
 
-CleanRange clean_range(std::span<double> some, std::size_t n) noexcept {
+CleanRange clean_range(std::span<double> some, std::size_t n) noexcept { return clean_range_within(some, outlier_limit(n)); }
+
+CleanRange clean_range_within(std::span<double> some, double limit) noexcept {
   if (some.size() < fewest_values) return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   const double centre = median_of(some);
   for (double& value : some) value = std::abs(value - centre);
-  const double reach = judges_slack * outlier_limit(n) * median_of(some) / normal_median_deviation;
+  const double reach = judges_slack * limit * median_of(some) / normal_median_deviation;
   return {centre - reach, centre + reach};
 }
 
 RobustMean robust_mean(std::span<const double> values, Robust loss, std::vector<double>& scratch) {
+  return robust_mean_within(values, loss, outlier_limit(values.size()), scratch);
+}
+
+RobustMean robust_mean_within(std::span<const double> values, Robust loss, double limit, std::vector<double>& scratch) {
   RobustMean out;
   Spread at{0, 0};
   if (loss != Robust::none && values.size() >= fewest_values) at = proposal_2(values, median_and_deviation(values, scratch));
-  const double limit = outlier_limit(values.size());
   if (at.scale > 0)
     for (std::size_t k = 0; k < values.size(); ++k)
       if (std::abs(values[k] - at.centre) > limit * at.scale) out.outliers.push_back(k);

@@ -23,6 +23,9 @@ double loss_weight(Robust loss, double z) noexcept;
 
 /// The |z| that one of `n` normal residuals exceeds with a probability of 0.1 %, the two-sided Bonferroni limit: 5.5 for 30 000.
 double outlier_limit(std::size_t n) noexcept;
+/// The same in units of a standard deviation that was estimated with `dof` degrees of freedom: Student's t, by the approximation of
+/// Wallace (1959).
+double outlier_limit(std::size_t n, double dof) noexcept;
 
 /// Median of |z|; 0.674 for standard normal residuals. Reorders its argument; NaN if it is empty.
 double median_of(std::span<double> values) noexcept;
@@ -50,11 +53,15 @@ struct CleanRange {
   double low, high;
 };
 CleanRange clean_range(std::span<double> some, std::size_t n) noexcept;
+/// The same for a limit in standard deviations.
+CleanRange clean_range_within(std::span<double> some, double limit) noexcept;
 
 /// Median and median deviation, then location and scale together (Huber's proposal 2, k = 2), then:
 ///   automatic  the mean of all values within the outlier limit, unless the others stand in runs
 ///   huber, cauchy  the mean with that loss
 /// `scratch` is used as working space.
 RobustMean robust_mean(std::span<const double> values, Robust loss, std::vector<double>& scratch);
+/// The same with another limit than outlier_limit(values.size()), where the values are a few of many.
+RobustMean robust_mean_within(std::span<const double> values, Robust loss, double limit, std::vector<double>& scratch);
 
 }  // namespace gonio::fitting

@@ -30,7 +30,9 @@ std::vector<VarianceModel> weigh_rows(Terms& terms) {
       if (!(n > 0)) continue;
       const double variance =
           std::max((channel.row_within[row] + row_prior_dof * model(channel.target[row], 0)) / (n - 1 + row_prior_dof), floor);
-      channel.weight[row] = variance > 0 ? n / variance : 0;
+      // The inverse of an estimated variance is too large on average by the variance of its ratio to the true one.
+      const double excess = 2 * (n - 1) / ((n - 1 + row_prior_dof) * (n - 1 + row_prior_dof));
+      channel.weight[row] = variance > 0 ? n / (variance * (1 + excess)) : 0;
       channel.within += variance > 0 ? channel.row_within[row] / variance : 0;
       channel.weighted_value2 += channel.weight[row] * channel.target[row] * channel.target[row];
     }

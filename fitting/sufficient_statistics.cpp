@@ -209,6 +209,7 @@ Terms make_terms(const SufficientStatistics& statistics, const ModelKernel& kern
   terms.transform = {statistics.metric};
   terms.weighted = statistics.weighted;
   terms.collapsed = true;
+  terms.rows_of = statistics.rows == SufficientStatistics::Rows::table_rows ? RowsOf::table_rows : RowsOf::directions;
   terms.n_observations = statistics.n_observations;
   terms.not_fitted = statistics.not_fitted;
   for (const GonioAngles& angles : statistics.angles) terms.geometry.push_back(lobe_geometry(angles));

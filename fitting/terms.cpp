@@ -186,6 +186,7 @@ Terms make_terms(const Observations& observations, const ModelKernel& kernel, Me
   terms.channel.resize(observations.channels().size());
   terms.weighted = carries_uncertainty(observations);
   terms.collapsed = can_collapse(observations, kernel, metric);
+  if (terms.collapsed) terms.rows_of = RowsOf::table_rows;
   std::vector<std::size_t> first(blocks + 1, 0);
   for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + observations.block(b).size;
   std::vector<Terms> parts(blocks);

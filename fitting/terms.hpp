@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "brdf/observations.hpp"
@@ -39,7 +40,9 @@ struct Terms {
   std::vector<ChannelTerms> channel;
   bool weighted = false;    ///< weights are 1/variance, so that the sum is a χ²
   bool pure_error = false;  ///< weights are 1/variance of the scatter of the data among themselves, whatever the model misses
-  bool collapsed = false;   ///< a row is a whole block
+  bool collapsed = false;   ///< a row is many samples: a whole block, or a bin (angle_bins.hpp)
+  RowsOf rows_of = RowsOf::samples;
+  std::string approximation;  ///< what the rows lose and why, in a sentence; empty: nothing
   std::size_t n_observations = 0;
   NotFitted not_fitted;
   /// If set, the rows are a part of the data, with weights raised to stand for all; the profile is that of these sums, of all samples.

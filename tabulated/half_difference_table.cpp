@@ -81,6 +81,27 @@ class MerlObservations final : public Observations {
     }
   }
 
+  /// cos psi = 2 cos θi cos θo - cos 2θd with the cosines as above: sin²(psi/2) = sin² θh (1 - sin² θd sin² φd).
+  void mirror_geometry(std::size_t row, MirrorGeometry& out) const override {
+    for (auto* column : {&out.sin2_half_psi, &out.cos_i, &out.cos_o}) column->resize(MerlGrid::row_count);
+    std::array<double, MerlGrid::phi_d_count> cos_phi, sin2_phi;
+    for (std::size_t p = 0; p < cos_phi.size(); ++p) {
+      const Angle phi_d = MerlGrid::node({row, 0, p}, nodes_).phi_d;
+      cos_phi[p] = phi_d.cos(), sin2_phi[p] = phi_d.sin() * phi_d.sin();
+    }
+    for (std::size_t d = 0; d < MerlGrid::theta_d_count; ++d) {
+      const HalfDifference node = MerlGrid::node({row, d, 0}, nodes_);
+      const double middle = node.theta_h.cos() * node.theta_d.cos(), swing = node.theta_h.sin() * node.theta_d.sin();
+      const double sin2_h = node.theta_h.sin() * node.theta_h.sin(), sin2_d = node.theta_d.sin() * node.theta_d.sin();
+      for (std::size_t p = 0; p < cos_phi.size(); ++p) {
+        const std::size_t k = d * MerlGrid::phi_d_count + p;
+        out.sin2_half_psi[k] = sin2_h * (1 - sin2_d * sin2_phi[p]);
+        out.cos_i[k] = middle - swing * cos_phi[p];
+        out.cos_o[k] = middle + swing * cos_phi[p];
+      }
+    }
+  }
+
   void angles(std::size_t row, std::vector<GonioAngles>& out) const override {
     out.resize(MerlGrid::row_count);
     for (std::size_t k = 0; k < out.size(); ++k) {

@@ -138,6 +138,9 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
                                           {"reason", result.aperture.reason.empty() ? Json() : Json(result.aperture.reason)},
                                           {"bound", result.aperture.bound},
                                           {"n_samples", static_cast<std::int64_t>(result.aperture.n_samples)}}));
+  document.set("rows", Json::object({{"of", name(result.rows.of)},
+                                     {"count", static_cast<std::int64_t>(result.rows.count)},
+                                     {"reason", result.rows.reason.empty() ? Json() : Json(result.rows.reason)}}));
   document.set("n_observations", static_cast<std::int64_t>(result.n_observations));
   document.set("n_masked", masked_document(masked, result.not_fitted));
   document.set("other_minima", minima_document(result));

@@ -75,6 +75,7 @@ std::vector<std::string> fit_lines(const fitting::FitResult& result, const Maske
   if (!errors.empty()) lines.push_back(errors);
   if (const std::string line = weighting_line(result); !line.empty()) lines.push_back(line);
   if (const std::string text = masked_text(masked, result.not_fitted); !text.empty()) lines.push_back("  " + text);
+  if (!result.rows.reason.empty()) lines.push_back("  " + result.rows.reason);
   if (result.aperture.on) lines.push_back("  " + result.aperture.reason);
   for (const auto& minimum : result.other_minima)
     lines.push_back(

@@ -159,6 +159,30 @@ TEST_CASE("The cosines of a row in float are those of its geometry") {
   }
 }
 
+TEST_CASE("The mirror angle of a row is that of its geometry") {
+  for (const MerlNodes nodes : {MerlNodes::left, MerlNodes::centre}) {
+    const auto observations = observe_merl(planes_of([](const MerlCell&, std::size_t) { return 1.0; }), nodes);
+    for (const std::size_t row : {std::size_t{0}, std::size_t{1}, std::size_t{40}, std::size_t{89}}) {
+      std::vector<LobeGeometry> all;
+      MirrorGeometry mirror;
+      observations->geometry(row, all);
+      observations->mirror_geometry(row, mirror);
+      REQUIRE(mirror.sin2_half_psi.size() == all.size());
+      constexpr double rounding_only = 1e-14;  // of the angles of the grid
+      double worst = 0;
+      for (std::size_t k = 0; k < all.size(); ++k) {
+        worst = std::max({worst, std::fabs(mirror.cos_i[k] - all[k].cos_i), std::fabs(mirror.cos_o[k] - all[k].cos_o)});
+        if (all[k].log_cos_psi > LobeGeometry::no_lobe)
+          worst = std::max(worst, std::fabs(mirror.sin2_half_psi[k] + 0.5 * std::expm1(all[k].log_cos_psi)));
+        else if (all[k].above_horizon())
+          worst = std::max(worst, 0.5 - mirror.sin2_half_psi[k]);
+      }
+      INFO("row " << row);
+      CHECK(worst < rounding_only);
+    }
+  }
+}
+
 TEST_CASE("The half angle of the first rows keeps its digits") {
   const auto observations = observe_merl(planes_of([](const MerlCell&, std::size_t) { return 1.0; }), MerlNodes::left);
   CHECK(observations->block(0).log_cos_h == 0);
