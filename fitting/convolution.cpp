@@ -16,8 +16,10 @@ namespace {
 
 constexpr double negligible = 0.1;  // standard uncertainties of a parameter
 constexpr double left_over = 0.03;  // of the rows that stay points, and of the order of the rules: together well below that
-constexpr int highest_order = 8;    // 256 nodes on a disc
-constexpr int highest_product = 3;  // 36 × 36 nodes where both apertures count
+constexpr int highest_order = 24;   // 2304 nodes on a disc
+constexpr int highest_product = 5;  // 100 × 100 nodes where both apertures count
+constexpr int smooth = 6;           // where rules settle by this order no lobe is narrow enough to hide from the nodes of order 1
+constexpr std::size_t most_nodes = std::size_t{1} << 21;  // of all rows together: 0.25 GB
 constexpr std::size_t rows_at_once = 64;
 
 struct HalfAngles {
@@ -50,7 +52,7 @@ struct RowApertures {
 /// Of one order on every aperture that is open.
 ApertureRule rule_of(HalfAngles half, int order) {
   const bool both = half.source > 0 && half.receiver > 0;
-  const int own = both ? std::min(order, highest_product) : order;
+  const int own = std::min(order, both ? highest_product : highest_order);
   return {half.source, half.receiver, half.source > 0 ? own : 0, half.receiver > 0 ? own : 0};
 }
 
@@ -97,6 +99,17 @@ class Means {
     return sum;
   }
 
+  /// Of all rows together.
+  std::size_t nodes(const std::vector<std::size_t>& rows, int order) const {
+    const auto on_disc = [](int own) { return own > 0 ? static_cast<std::size_t>(4 * own * own) : 1; };
+    std::size_t out = 0;
+    for (const std::size_t row : rows) {
+      const ApertureRule rule = rule_of(rows_.half[row], order);
+      out += on_disc(rule.source_order) * on_disc(rule.receiver_order);
+    }
+    return out;
+  }
+
  private:
   const Terms& terms_;
   const RowApertures& rows_;
@@ -105,6 +118,30 @@ class Means {
   const std::vector<std::vector<double>>& weight_;
   int threads_;
 };
+
+/// An order of the rules for some rows, and the change of the last step to a finer one, of all rows, in standard deviations.
+struct Settled {
+  int order = 1;
+  double change = 0;
+  std::vector<std::vector<double>> value;  ///< f̂ at this order, [row of the list][channel]
+};
+
+/// The lowest order that changes less than `left_over` against the one before, or the highest that exists and can be kept.
+Settled settle(const Means& means, const std::vector<std::size_t>& rows) {
+  Settled out;
+  out.value = means.values(rows, out.order);
+  while (means.nodes(rows, out.order + 1) > means.nodes(rows, out.order)) {
+    std::vector<std::vector<double>> next = means.values(rows, out.order + 1);
+    double sum = 0;
+    for (std::size_t j = 0; j < rows.size(); ++j) sum += means.square(rows[j], next[j], out.value[j]);
+    out.change = std::sqrt(sum);
+    if (means.nodes(rows, out.order + 1) > most_nodes) break;
+    ++out.order;
+    out.value = std::move(next);
+    if (out.change <= left_over) break;
+  }
+  return out;
+}
 
 /// The rows whose change counts: the largest first until what is left falls below `left_over`.
 std::vector<std::size_t> rows_that_count(const std::vector<double>& square) {
@@ -152,40 +189,44 @@ ApertureEffect convolve(Terms& terms, const Observations& observations, const st
     if (apertures.half[row].source > 0 || apertures.half[row].receiver > 0) all.push_back(row);
   if (all.empty()) return effect;
 
-  const auto points = means.values(all, 0), coarse = means.values(all, 1);
-  std::vector<double> square(terms.rows(), 0.0);
-  for (std::size_t j = 0; j < all.size(); ++j) square[all[j]] = means.square(all[j], coarse[j], points[j]);
-  effect.bound = std::sqrt(std::accumulate(square.begin(), square.end(), 0.0));
-  effect.on = effect.bound >= negligible || !terms.mean.empty();
-  if (!effect.on) {
-    effect.reason =
-        fmt::format("left out: means over the apertures would move no parameter by more than {:.2g} of its uncertainty", effect.bound);
-    return effect;
-  }
-  for (const std::size_t row : terms.mean.row) square[row] = std::max(square[row], 1.0);
-  const std::vector<std::size_t> rows = rows_that_count(square);
-
-  int order = 1;
-  std::vector<std::vector<double>> here = means.values(rows, order);
-  for (double change = 1; order < highest_order && change > left_over; ++order) {
-    std::vector<std::vector<double>> next = means.values(rows, order + 1);
-    change = 0;
-    for (std::size_t j = 0; j < rows.size(); ++j) change += means.square(rows[j], next[j], here[j]);
-    change = std::sqrt(change);
-    here = std::move(next);
+  const auto points = means.values(all, 0);
+  std::vector<std::size_t> rows;
+  Settled rule;
+  // A lobe much narrower than the aperture is missed by coarse rules in most rows: then every row is looked at with the finer one.
+  for (int seen = 1;; seen = rule.order) {
+    const auto means_seen = means.values(all, seen);
+    std::vector<double> square(terms.rows(), 0.0);
+    for (std::size_t j = 0; j < all.size(); ++j) square[all[j]] = means.square(all[j], means_seen[j], points[j]);
+    effect.bound = std::sqrt(std::accumulate(square.begin(), square.end(), 0.0));
+    effect.on = effect.bound >= negligible || !terms.mean.empty();
+    if (!effect.on) {
+      effect.reason =
+          fmt::format("left out: means over the apertures would move no parameter by more than {:.2g} of its uncertainty", effect.bound);
+      return effect;
+    }
+    std::vector<double> counted = square;
+    for (const std::size_t row : terms.mean.row) counted[row] = std::max(counted[row], 1.0);
+    rows = rows_that_count(counted);
+    rule = settle(means, rows);
+    if (rule.order > std::max(seen, smooth)) continue;
+    const auto points_here = means.values(rows, 0);
+    for (std::size_t j = 0; j < rows.size(); ++j) square[rows[j]] = means.square(rows[j], rule.value[j], points_here[j]);
+    effect.bound = std::sqrt(std::accumulate(square.begin(), square.end(), 0.0));
+    break;
   }
   terms.mean = {};
   std::vector<LobeGeometry> geometry;
   std::vector<double> part;
   for (const std::size_t row : rows) {
     geometry.clear(), part.clear();
-    aperture_nodes(apertures.angles[row], rule_of(apertures.half[row], order), geometry, part);
+    aperture_nodes(apertures.angles[row], rule_of(apertures.half[row], rule.order), geometry, part);
     if (!geometry.empty()) terms.mean.append(row, geometry, part);
   }
   effect.n_samples = terms.mean.row.size();
   effect.reason = fmt::format(
       "means over the apertures, {} nodes for each of {} samples: left out they could move a parameter by {:.2g} of its uncertainty",
       terms.mean.empty() ? 0 : terms.mean.first[1], effect.n_samples, effect.bound);
+  if (rule.change > left_over) effect.reason += fmt::format("; finer rules still could by {:.2g}", rule.change);
   return effect;
 }
 

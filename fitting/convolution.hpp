@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "brdf/observations.hpp"
 #include "brdf/aperture.hpp"
+#include "brdf/observations.hpp"
 
 namespace gonio::fitting {
 
@@ -38,9 +38,10 @@ struct ApertureEffect {
 /// Looks at what the mean over the apertures changes at the solution (linear, theta), in standard deviations of every reading: z. Leaving
 /// it out moves no parameter by more than √Σz² of its standard uncertainty (least squares: |δ_k|/σ_k <= |z|), whatever the lobe; that is
 /// s a²/4 of the peak for a mirror lobe (measurement.md 1). Below 0.1 nothing is done. Else the rows with the largest z become means
-/// until those left are together below 0.03, with disc rules of an order that the next one changes by less than 0.03. Rows that are means
-/// already stay so. `weight`: [channel][row] 1/σ² of a reading, of those too that the fit left out as wrong: without the means they may
-/// only have looked so.
+/// until those left are together below 0.03, with disc rules of growing order until the last step changes less than 0.03; `reason` says
+/// what that step changes where there is no finer rule. Trap: a disc that the horizon cuts in the midst of a lobe settles slowly; with both
+/// directions within the aperture of the horizon a mean is good for 1 % of itself. Rows that are means already stay so. `weight`:
+/// [channel][row] 1/σ² of a reading, of those too that the fit left out as wrong: without the means they may only have looked so.
 ApertureEffect convolve(Terms& terms, const Observations& observations, const std::vector<std::vector<double>>& linear,
                         const std::vector<double>& theta, const std::vector<std::vector<double>>& weight, int threads);
 

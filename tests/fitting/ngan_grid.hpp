@@ -33,6 +33,9 @@ class NoisyReadings {
       for (std::size_t c = 0; c < f.size(); ++c) exact_[c].push_back(f[c]);
     }
   }
+  /// `exact`: [channel][sample] 1/sr, where it is more than the model at the angles.
+  NoisyReadings(std::vector<GonioAngles> angles, Channels channels, std::vector<std::vector<double>> exact)
+      : angles_(std::move(angles)), channels_(std::move(channels)), exact_(std::move(exact)) {}
   std::shared_ptr<Dataset> draw(unsigned seed) const {
     auto data = std::make_shared<Dataset>();
     data->channels = channels_;
