@@ -8,6 +8,8 @@
 namespace gonio {
 namespace {
 
+constexpr std::size_t block_size = 2048;  // enough blocks for several threads in a few thousand samples
+
 class DatasetObservations final : public Observations {
  public:
   explicit DatasetObservations(std::shared_ptr<const Dataset> dataset) : dataset_(std::move(dataset)) {
@@ -22,11 +24,11 @@ class DatasetObservations final : public Observations {
 
   const Channels& channels() const override { return dataset_->channels; }
   Symmetry symmetry() const override { return dataset_->symmetry; }
-  std::size_t block_count() const override { return (dataset_->size() + max_block - 1) / max_block; }
+  std::size_t block_count() const override { return (dataset_->size() + block_size - 1) / block_size; }
 
   ObservationBlock block(std::size_t index) const override {
     ObservationBlock block;
-    const std::size_t first = index * max_block;
+    const std::size_t first = index * block_size;
     block.size = size_of(index);
     for (const auto& values : dataset_->f) block.f.push_back({values.data() + first});
     for (const auto& values : dataset_->u) block.u.push_back({values.data() + first});
@@ -40,6 +42,12 @@ class DatasetObservations final : public Observations {
                    [](const GonioAngles& angles) { return lobe_geometry(angles); });
   }
 
+  void geometry_of(std::size_t index, std::span<const std::size_t> samples, std::vector<LobeGeometry>& out) const override {
+    out.resize(samples.size());
+    std::transform(samples.begin(), samples.end(), out.begin(),
+                   [angles = first(index)](std::size_t sample) { return lobe_geometry(angles[static_cast<std::ptrdiff_t>(sample)]); });
+  }
+
   void angles(std::size_t index, std::vector<GonioAngles>& out) const override {
     out.assign(first(index), first(index) + static_cast<std::ptrdiff_t>(size_of(index)));
   }
@@ -48,9 +56,9 @@ class DatasetObservations final : public Observations {
   std::vector<CorrelatedComponent> correlated() const override { return dataset_->correlated; }
 
  private:
-  std::size_t size_of(std::size_t index) const { return std::min(max_block, dataset_->size() - index * max_block); }
+  std::size_t size_of(std::size_t index) const { return std::min(block_size, dataset_->size() - index * block_size); }
   std::vector<GonioAngles>::const_iterator first(std::size_t index) const {
-    return dataset_->angles.begin() + static_cast<std::ptrdiff_t>(index * max_block);
+    return dataset_->angles.begin() + static_cast<std::ptrdiff_t>(index * block_size);
   }
 
   std::shared_ptr<const Dataset> dataset_;

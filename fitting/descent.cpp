@@ -86,7 +86,7 @@ Minimum descend(const Profile& profile, const SearchSpace& space, std::span<cons
   at.z.assign(start.begin(), start.end());
   at.point = profile.at(space.theta(at.z), options.threads);
   double damping = first_damping;
-  bool done = false;
+  bool done = space.dimension() == (options.hold ? 1 : 0);
   for (int iteration = 0; iteration < options.most_steps && !done && std::isfinite(at.point.cost); ++iteration) {
     const Step step = step_at(profile, space, at, options);
     if (step.moving.empty()) break;

@@ -263,10 +263,13 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
     Laps lap;
     const SolveOptions how = solve_options(options, kernel, these.channel.size());
     weigher.free_parameters = free_parameters(how);
-    if (!these.sums)
-      add_weighting(result.weighting, weigh_and_convolve(these, how, weigher, observations, options, result.aperture), first);
+    Weighed weighed;
+    if (!these.sums) {
+      weighed = weigh_and_convolve(these, how, weigher, observations, options, result.aperture);
+      add_weighting(result.weighting, std::move(weighed.weighting), first);
+    }
     result.stages.weights_s += lap();
-    Solution solution = solve(these, how, correlated);
+    Solution solution = solve(these, how, correlated, std::move(weighed.minima));
     result.stages.scan_s += solution.scan_s;
     result.stages.intervals_s += solution.intervals_s;
     return solution;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "fitting/sums_search.hpp"
+#include "fitting/stretch_search.hpp"
 #include "fitting/thinned.hpp"
 #include "fitting/threads.hpp"
 
@@ -13,7 +13,7 @@ namespace gonio::fitting {
 namespace {
 
 constexpr std::size_t scan_points = 61;
-constexpr double brent_tolerance = 1e-9;
+constexpr double brent_tolerance = 1e-9, coarse = 1e-4;  // on the axis; coarse: of a part of the rows
 /// A rise smaller than this part of the largest cost of the scan is rounding, not a barrier between two minima.
 constexpr double ripple = 1e-12;
 constexpr std::size_t many_rows = 1000;        // worth several threads
@@ -273,6 +273,16 @@ std::vector<std::vector<double>> starts_among(const SearchSpace& space, std::vec
   return starts;
 }
 
+/// The sums of a part of the rows, without rows.
+Terms part_of_sums(const Terms& terms) {
+  Terms out;
+  out.kernel = terms.kernel;
+  out.transform = terms.transform;
+  out.channel.resize(terms.channel.size());
+  out.sums = terms.sums->few();
+  return out;
+}
+
 Found search_rows(const Profile& profile, const SearchSpace& space, int threads) {
   Found found;
   if (space.dimension() == 1) {
@@ -305,20 +315,38 @@ Minimum lowest_between(const Profile& profile, const SearchSpace& space, double 
   return {{z}, at(z)};
 }
 
-Found search_globally(const Profile& profile, const SearchSpace& space, int threads) {
+Found search_globally(Profile& profile, const SearchSpace& space, int threads, std::vector<Minimum> known) {
+  const Terms& terms = profile.terms();
   if (space.dimension() == 0) return {{}, {{{}, profile.at(space.theta({}), threads)}}};
-  if (profile.terms().sums && space.dimension() == 1) return search_on_sums(profile, space, threads);
+  const bool line = space.dimension() == 1;
   // Twice as many rows are still searched whole: thinning them gains less than the second look at all rows costs.
-  if (profile.terms().rows() <= 2 * rows_for_search) return search_rows(profile, space, threads);
-  const Terms few = thinned(profile.terms(), rows_for_search);
-  const Found found = search_rows(Profile(few, profile.limits()), space, threads);
-  return {{}, descend_from_all(profile, space, places_of(found.minima), threads)};
-}
-
-Found follow(const Profile& profile, const SearchSpace& space, const std::vector<Minimum>& known, int threads) {
-  if (space.dimension() == 0 || (space.dimension() == 1 && profile.terms().rows() <= 2 * rows_for_search))
-    return search_globally(profile, space, threads);
-  return {{}, descend_from_all(profile, space, places_of(known), threads)};
+  if (!terms.sums && terms.rows() <= 2 * rows_for_search && (line || known.empty())) return search_rows(profile, space, threads);
+  std::size_t looked_at = terms.rows();
+  if (terms.sums) {
+    const Terms few = part_of_sums(terms);
+    looked_at = few.sums->rows();
+    known = search_axis(Profile(few, profile.limits()), space, threads, coarse).minima;
+  } else if (known.empty()) {
+    const Terms few = thinned(terms, rows_for_search);
+    looked_at = few.rows();
+    known = search_rows(Profile(few, profile.limits()), space, threads).minima;
+  }
+  const auto refined = [&](std::vector<Minimum> minima) {
+    if (!terms.sums) return descend_from_all(profile, space, places_of(minima), threads);
+    for (Minimum& minimum : minima) minimum.point = profile.at(minimum.point.theta, threads);
+    return minima;
+  };
+  if (line && terms.transform.linear()) {
+    if (std::optional<StretchFound> found = search_on_stretch(profile, space, known.front(), looked_at, threads)) {
+      std::vector<Minimum> all = refined({known.begin() + 1, known.end()});
+      std::erase_if(all, [&](const Minimum& other) { return found->covers(other.z.front()); });
+      all.insert(all.begin(), std::move(found->lowest));
+      if (std::all_of(all.begin() + 1, all.end(), [&](const Minimum& other) { return other.point.cost > found->well_above; }))
+        return {std::move(found->scan), distinct(profile, space, std::move(all), threads)};
+      profile.forget();
+    }
+  }
+  return terms.sums ? search_axis(profile, space, threads, brent_tolerance) : Found{{}, refined(std::move(known))};
 }
 
 }  // namespace gonio::fitting

@@ -10,7 +10,8 @@ namespace gonio::fitting {
 
 struct Found {
   std::vector<ProfilePoint>
-      scan;  ///< along the axis, if there is one free parameter and few rows: their profile on equal steps from end to end of the search
+      scan;  ///< along the axis, if there is one free parameter and few rows: their profile on equal steps from end to end of the search;
+             ///< of many rows points on equal steps about the lowest minimum, up to where the cost is far above it
   std::vector<Minimum> minima;  ///< the lowest first; the point itself if nothing is free
 };
 
@@ -19,16 +20,16 @@ struct Found {
 /// counts.
 /// Two: a grid, its local minima refined by descent. More: a low-discrepancy sequence (generalised golden ratio), the best points far
 /// from each other refined.
-/// Of many rows a part (thinned) is searched, and the minima found there are refined by descent on all. Two minima without a barrier
-/// between them are one; equal terms stand in order. Terms with `sums` go another way (sums_search.hpp).
-Found search_globally(const Profile& profile, const SearchSpace& space, int threads);
+/// Of many rows a part (thinned) is searched, and the minima found there are refined on all: the lowest on a stretch of the one free axis,
+/// which stays prepared in `profile` (stretch_search.hpp), all others by descent. Two minima without a barrier between them are one;
+/// equal terms stand in order.
+/// `known`: minima of nearly the same cost, under weights that have moved since; where the search is not a matter of few rows along one
+/// axis they are refined and no others looked for.
+Found search_globally(Profile& profile, const SearchSpace& space, int threads, std::vector<Minimum> known = {});
 
 /// The search along the one free axis: the scan, and its minima refined to `tolerance` on the axis.
 Found search_axis(const Profile& profile, const SearchSpace& space, int threads, double tolerance);
 /// The minimum between two points of the one free axis (Brent), to 1e-9.
 Minimum lowest_between(const Profile& profile, const SearchSpace& space, double low, double high, int threads);
-
-/// The minima that known ones have moved to under other weights.
-Found follow(const Profile& profile, const SearchSpace& space, const std::vector<Minimum>& known, int threads);
 
 }  // namespace gonio::fitting

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "fitting/point_fit.hpp"
@@ -15,7 +14,6 @@ constexpr std::size_t many_samples = 200'000;  // fewer go through the rows in t
 constexpr std::size_t rows_kept = 32'768;      // of the sample: its sigmas are good to half a percent
 constexpr std::size_t rows_of_search = 32'768;
 constexpr std::size_t rows_of_part = 2'048;  // a variance to two percent
-constexpr std::size_t nodes = 10;
 
 std::size_t stride_for(std::size_t rows, std::size_t wanted) { return std::max<std::size_t>(1, (rows + wanted - 1) / wanted); }
 
@@ -64,39 +62,7 @@ Terms rows_of(const Observations& observations, const ModelKernel& kernel, const
 
 }  // namespace
 
-std::vector<Matrix> FacetSums::triangles(double alpha, int threads) const {
-  const double z = std::log(alpha);
-  if (node_.empty() || z < place_.front() || z > place_.back()) return triangles_of_sums(table_->sums(alpha, threads));
-  std::vector<double> sums(node_.front().size(), 0.0);
-  double whole = 0;
-  for (std::size_t k = 0; k < place_.size(); ++k) {
-    const double apart = z - place_[k];
-    if (apart == 0) return triangles_of_sums(node_[k]);
-    const double weight = barycentric_[k] / apart;
-    whole += weight;
-    for (std::size_t j = 0; j < sums.size(); ++j) sums[j] += weight * node_[k][j];
-  }
-  for (double& sum : sums) sum /= whole;
-  return triangles_of_sums(sums);
-}
-
-void FacetSums::prepare(double low, double high, int threads) {
-  place_.clear(), barycentric_.clear(), node_.clear();
-  const double middle = 0.5 * (std::log(low) + std::log(high)), reach = 0.5 * (std::log(high) - std::log(low));
-  for (std::size_t k = 0; k < nodes; ++k) {
-    // Extreme points of Chebyshev's polynomial; the place is that of the float which the table is asked at.
-    const double wanted = middle - reach * std::cos(std::numbers::pi * static_cast<double>(k) / (nodes - 1));
-    const double alpha = static_cast<float>(std::exp(wanted));
-    place_.push_back(std::log(alpha));
-    node_.push_back(table_->sums(alpha, threads));
-  }
-  for (std::size_t k = 0; k < nodes; ++k) {
-    double product = 1;
-    for (std::size_t j = 0; j < nodes; ++j)
-      if (j != k) product *= (place_[k] - place_[j]) / reach;
-    barycentric_.push_back(1 / product);
-  }
-}
+std::vector<Matrix> FacetSums::triangles(double alpha, int threads) const { return triangles_of_sums(table_->sums(alpha, threads)); }
 
 std::shared_ptr<RowSums> FacetSums::few() const {
   return std::make_shared<FacetSums>(std::make_shared<const FacetTable>(table_->every(stride_for(table_->rows(), rows_of_search))));

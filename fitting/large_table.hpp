@@ -12,20 +12,17 @@
 
 namespace gonio::fitting {
 
-/// Sums of a table of facets. Between two prepared values of alpha the sums are interpolated: they are analytic in ln alpha in a strip of
-/// half width π/2 about the real axis, so that ten nodes at Chebyshev's places give 1e-12 over a factor of 1.5.
+/// Sums of a table of facets, whose lobe is known at every value of alpha that a float can hold.
 class FacetSums final : public RowSums {
  public:
   explicit FacetSums(std::shared_ptr<const FacetTable> table) : table_(std::move(table)) {}
   std::vector<Matrix> triangles(double alpha, int threads) const override;
-  void prepare(double low, double high, int threads) override;
+  double nearest(double alpha) const override { return static_cast<float>(alpha); }
   std::shared_ptr<RowSums> few() const override;
   std::size_t rows() const noexcept override { return table_->rows(); }
 
  private:
   std::shared_ptr<const FacetTable> table_;
-  std::vector<double> place_, barycentric_;  ///< nodes in ln alpha, in rising order, and their weights
-  std::vector<std::vector<double>> node_;    ///< the sums there
 };
 
 /// A table in two sizes.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fitting/row_triangles.hpp"
 #include "fitting/threads.hpp"
 
 namespace gonio::fitting {
@@ -90,9 +89,8 @@ LineIntervals::LineIntervals(const Profile& profile, const SearchSpace& space, R
   const bool closed = std::isfinite(axis.low) && std::isfinite(axis.high), many = profile.terms().rows() > many_rows;
   const std::size_t count = closed && many ? nodes_of_many_rows : interval_nodes;
   nodes_.resize(count);
-  const bool split = many && profile.terms().rows() <= rows_per_piece;
-  const Line alone{profile, space, split ? 1 : threads};
-  for_each_index(count, split ? threads : 1, [&](std::size_t k) {
+  const Line alone{profile, space, 1};
+  for_each_index(count, many ? threads : 1, [&](std::size_t k) {
     nodes_[k] = alone.at(from + (to - from) * static_cast<double>(k) / static_cast<double>(count - 1));
   });
 }

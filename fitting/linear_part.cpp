@@ -14,6 +14,10 @@ namespace {
 /// Columns whose part orthogonal to the others is below this part of their length are dependent: the rounding of the rows themselves.
 constexpr double rank_tolerance = 1e-13;
 
+/// A sum of squares below this has lost digits to the denormal numbers: a reflection by it would not keep lengths. Lobes far from their
+/// peak are so small, and of no account there.
+constexpr double least_square = 1e-280;
+
 /// Systems of at most max_linear unknowns live on the stack.
 constexpr int most = static_cast<int>(max_linear);
 using Dense = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
@@ -156,7 +160,7 @@ void Triangle::add(Matrix& block, std::size_t rows) {
   const std::size_t n = r_.columns();
   for (std::size_t j = 0; j < n; ++j) {
     const double below = column(j).squaredNorm();
-    if (!(below > 0)) continue;
+    if (!(below > least_square)) continue;
     const double alpha = r_(j, j);
     const double beta = std::copysign(std::sqrt(alpha * alpha + below), -alpha);
     const double head = alpha - beta, tau = -head / beta;

@@ -8,7 +8,8 @@
 namespace gonio::fitting {
 namespace {
 
-constexpr std::size_t rows_for_search = 4096;
+constexpr std::size_t rows_for_search = 2048;
+constexpr double settled = 1e-6;  // decrease of the cost in variances of one reading: a thousandth of a standard deviation
 constexpr std::size_t rows_at_once = 1024;
 
 }  // namespace
@@ -18,18 +19,22 @@ PointFit::PointFit(const Terms& terms, const SolveOptions& options)
 
 std::optional<std::vector<std::vector<double>>> PointFit::operator()(bool global) {
   const Profile profile(terms_, options_.limits);
+  if (minima_.empty() || global) {
+    const Terms few = thinned(terms_, rows_for_search);
+    Profile of_few(few, options_.limits);
+    minima_ = search_globally(of_few, space_, options_.threads).minima;
+    if (minima_.empty() || !std::isfinite(minima_.front().point.cost)) return minima_.clear(), std::nullopt;
+  }
+  Minimum& last = minima_.front();
   DescentOptions descent;
   descent.threads = options_.threads;
-  if (!last_ || global) {
-    const Terms few = thinned(terms_, rows_for_search);
-    const Found found = search_globally(Profile(few, options_.limits), space_, options_.threads);
-    if (found.minima.empty() || !std::isfinite(found.minima.front().point.cost)) return std::nullopt;
-    last_ = found.minima.front();
-  }
-  last_ =
-      space_.dimension() == 0 ? Minimum{{}, profile.at(space_.theta({}), options_.threads)} : descend(profile, space_, last_->z, descent);
-  if (!std::isfinite(last_->point.cost)) return std::nullopt;
-  return fitted_values(terms_, last_->point.linear(), last_->point.theta);
+  descent.tolerance = settled * last.point.cost / static_cast<double>(terms_.rows());
+  if (space_.dimension() == 0)
+    last.point = profile.at(space_.theta({}), options_.threads);
+  else
+    last = descend(profile, space_, last.z, descent);
+  if (!std::isfinite(last.point.cost)) return minima_.clear(), std::nullopt;
+  return fitted_values(terms_, last.point.linear(), last.point.theta);
 }
 
 std::vector<std::vector<double>> fitted_values(const Terms& terms, const std::vector<std::vector<double>>& linear,

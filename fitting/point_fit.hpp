@@ -22,13 +22,15 @@ class PointFit {
   std::optional<std::vector<std::vector<double>>> operator()(bool global);
 
   /// The minimum of the last call; null before the first and where there is none.
-  const Minimum* last() const noexcept { return last_ ? &*last_ : nullptr; }
+  const Minimum* last() const noexcept { return minima_.empty() ? nullptr : &minima_.front(); }
+  /// That and the others of the last global search, which looked at a part of many rows.
+  const std::vector<Minimum>& minima() const noexcept { return minima_; }
 
  private:
   const Terms& terms_;
   const SolveOptions& options_;
   SearchSpace space_;
-  std::optional<Minimum> last_;
+  std::vector<Minimum> minima_;
 };
 
 /// f̂ [1/sr] of every row in every channel.

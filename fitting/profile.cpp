@@ -124,38 +124,70 @@ ChannelPart Profile::channel_at(std::size_t channel, const std::vector<double>& 
   return part;
 }
 
-ProfilePoint Profile::at(std::span<const double> theta, int threads) const {
-  const std::size_t rows = terms_->rows(), linear = terms_->kernel.linear, channels = terms_->channel.size();
+/// [basis | f] of all rows, one triangle per channel.
+std::vector<Matrix> Profile::triangles(std::span<const double> theta, int threads) const {
+  if (terms_->sums) return terms_->sums->triangles(theta.front(), threads);
+  const std::size_t linear = terms_->kernel.linear, channels = terms_->channel.size();
+  const auto fill = [&](std::size_t begin, std::size_t end, std::vector<Matrix>& blocks) {
+    const std::size_t size = end - begin;
+    std::array<double, max_linear * rows_at_once> columns;
+    terms_->basis(begin, end, theta.data(), columns.data(), rows_at_once);
+    for (std::size_t c = 0; c < channels; ++c) {
+      const ChannelTerms& terms = terms_->channel[c];
+      std::array<double, rows_at_once> root;
+      for (std::size_t j = 0; j < size; ++j) root[j] = std::sqrt(terms.weight[begin + j]);
+      for (std::size_t k = 0; k < linear; ++k) {
+        const auto column = blocks[c].column(k);
+        for (std::size_t j = 0; j < size; ++j) column[j] = root[j] * columns[k * rows_at_once + j];
+      }
+      const auto rhs = blocks[c].column(linear);
+      for (std::size_t j = 0; j < size; ++j) rhs[j] = root[j] * terms.target[begin + j];
+    }
+  };
+  std::vector<Matrix> out;
+  for (const Triangle& triangle : triangles_of_rows(terms_->rows(), std::vector<std::size_t>(channels, linear + 1), threads, fill))
+    out.push_back(triangle.r());
+  return out;
+}
+
+void Profile::prepare(const SearchSpace& space, double low, double high, int threads) {
+  const SearchAxis& axis = space.axes().front();
+  const auto node = [&](double place) {
+    std::vector<double> theta = space.theta(std::span(&place, 1));
+    if (terms_->sums) theta.front() = terms_->sums->nearest(theta.front());
+    return InterpolatedTriangles::Node{axis.coordinate(theta[axis.parameter]), triangles(theta, 1)};
+  };
+  stretch_ = std::make_shared<const Stretch>(Stretch{axis, InterpolatedTriangles(low, high, threads, node)});
+}
+
+ProfilePoint Profile::from_triangles(std::span<const double> theta, const std::vector<Matrix>& triangles) const {
   ProfilePoint point;
   point.theta.assign(theta.begin(), theta.end());
-  if (terms_->sums) {
-    const std::vector<Matrix> triangles = terms_->sums->triangles(theta.front(), threads);
-    for (std::size_t c = 0; c < channels; ++c) point.channel.push_back(channel_part(c, triangles[c]));
-  } else if (terms_->transform.linear()) {
-    const auto fill = [&](std::size_t begin, std::size_t end, std::vector<Matrix>& blocks) {
-      const std::size_t size = end - begin;
-      std::array<double, max_linear * rows_at_once> columns;
-      terms_->basis(begin, end, theta.data(), columns.data(), rows_at_once);
-      for (std::size_t c = 0; c < channels; ++c) {
-        const ChannelTerms& terms = terms_->channel[c];
-        std::array<double, rows_at_once> root;
-        for (std::size_t j = 0; j < size; ++j) root[j] = std::sqrt(terms.weight[begin + j]);
-        for (std::size_t k = 0; k < linear; ++k) {
-          const auto column = blocks[c].column(k);
-          for (std::size_t j = 0; j < size; ++j) column[j] = root[j] * columns[k * rows_at_once + j];
-        }
-        const auto rhs = blocks[c].column(linear);
-        for (std::size_t j = 0; j < size; ++j) rhs[j] = root[j] * terms.target[begin + j];
-      }
-    };
-    const auto triangles = triangles_of_rows(rows, std::vector<std::size_t>(channels, linear + 1), threads, fill);
-    for (std::size_t c = 0; c < channels; ++c) point.channel.push_back(channel_part(c, triangles[c].r()));
-  } else {
-    std::vector<double> columns(linear * rows);
-    terms_->basis(0, rows, theta.data(), columns.data(), rows);
-    for (std::size_t c = 0; c < channels; ++c) point.channel.push_back(channel_at(c, columns, threads));
+  for (std::size_t c = 0; c < triangles.size(); ++c) {
+    point.channel.push_back(channel_part(c, triangles[c]));
+    point.cost += point.channel.back().cost;
   }
-  for (const ChannelPart& part : point.channel) point.cost += part.cost;
+  return point;
+}
+
+ProfilePoint Profile::at(std::span<const double> theta, int threads) const {
+  if (stretch_)
+    if (const double place = stretch_->axis.coordinate(theta[stretch_->axis.parameter]); stretch_->triangles.covers(place))
+      return from_triangles(theta, stretch_->triangles.at(place));
+  return at_rows(theta, threads);
+}
+
+ProfilePoint Profile::at_rows(std::span<const double> theta, int threads) const {
+  if (terms_->sums || terms_->transform.linear()) return from_triangles(theta, triangles(theta, threads));
+  const std::size_t rows = terms_->rows();
+  ProfilePoint point;
+  point.theta.assign(theta.begin(), theta.end());
+  std::vector<double> columns(terms_->kernel.linear * rows);
+  terms_->basis(0, rows, theta.data(), columns.data(), rows);
+  for (std::size_t c = 0; c < terms_->channel.size(); ++c) {
+    point.channel.push_back(channel_at(c, columns, threads));
+    point.cost += point.channel.back().cost;
+  }
   return point;
 }
 

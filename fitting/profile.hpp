@@ -2,10 +2,13 @@
 // The cost as a function of the nonlinear parameters alone, the linear ones eliminated.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "fitting/interpolated_triangles.hpp"
 #include "fitting/linear_part.hpp"
+#include "fitting/search_space.hpp"
 #include "fitting/terms.hpp"
 
 namespace gonio::fitting {
@@ -48,7 +51,16 @@ class Profile {
   /// The one place where linear parameters are eliminated. The result does not depend on the number of threads.
   ProfilePoint at(std::span<const double> theta, int threads = 1) const;
 
+  /// Makes `at` quick between two places on the one free axis, for a metric that is linear in f: the rows are looked at in a few places
+  /// and what they say is interpolated. Whether that is good enough is to be told from `at_rows`.
+  void prepare(const SearchSpace& space, double low, double high, int threads);
+  void forget() noexcept { stretch_.reset(); }
+  /// The same as `at`, whatever was prepared.
+  ProfilePoint at_rows(std::span<const double> theta, int threads = 1) const;
+
  private:
+  ProfilePoint from_triangles(std::span<const double> theta, const std::vector<Matrix>& triangles) const;
+  std::vector<Matrix> triangles(std::span<const double> theta, int threads) const;
   ChannelPart channel_part(std::size_t channel, const Matrix& r) const;
   ChannelPart channel_at(std::size_t channel, const std::vector<double>& columns, int threads) const;
   ChannelPart linearised(std::size_t channel, const std::vector<double>& columns, const std::vector<double>* about, int threads) const;
@@ -56,6 +68,11 @@ class Profile {
 
   const Terms* terms_;
   std::vector<LinearLimits> limits_;
+  struct Stretch {
+    SearchAxis axis;
+    InterpolatedTriangles triangles;
+  };
+  std::shared_ptr<const Stretch> stretch_;
 };
 
 }  // namespace gonio::fitting

@@ -16,8 +16,8 @@ class RowSums {
   virtual ~RowSums() = default;
   /// The triangle of [basis | f] of all rows at a value of the nonlinear parameter, one per channel.
   virtual std::vector<Matrix> triangles(double parameter, int threads) const = 0;
-  /// Makes later calls between two values quick. They change by less than rounding.
-  virtual void prepare(double low, double high, int threads) = 0;
+  /// The value next to `parameter` that the sums can be had at exactly.
+  virtual double nearest(double parameter) const = 0;
   /// The sums of a part of the rows, for a search.
   virtual std::shared_ptr<RowSums> few() const = 0;
   virtual std::size_t rows() const noexcept = 0;

@@ -11,8 +11,9 @@
 
 namespace gonio::fitting {
 
-inline constexpr std::size_t rows_at_once = 256;      ///< of a block: stays in the first-level cache
-inline constexpr std::size_t rows_per_piece = 16384;  ///< of a piece of work; fixed, so that results do not depend on the threads
+inline constexpr std::size_t rows_at_once = 256;     ///< of a block: stays in the first-level cache
+inline constexpr std::size_t rows_per_piece = 2048;  ///< of a piece of work; fixed, so that results do not depend on the threads
+inline constexpr std::size_t rows_for_threads = 2 * rows_per_piece;  ///< fewer are done in the time that a thread takes to start
 
 /// One triangle per entry of `columns`, its number of columns. `fill(begin, end, blocks)` writes rows [begin, end), at most
 /// `rows_at_once`, to the top of one block per triangle; it is called from several threads.
@@ -36,7 +37,7 @@ std::vector<Triangle> triangles_of_rows(std::size_t rows, const std::vector<std:
   };
   if (rows <= rows_per_piece) return rows > 0 ? fold(0, rows) : empty();
   std::vector<std::vector<Triangle>> pieces((rows + rows_per_piece - 1) / rows_per_piece);
-  for_each_index(pieces.size(), threads,
+  for_each_index(pieces.size(), rows >= rows_for_threads ? threads : 1,
                  [&](std::size_t p) { pieces[p] = fold(p * rows_per_piece, std::min(rows, (p + 1) * rows_per_piece)); });
   std::vector<Triangle> out = std::move(pieces.front());
   for (std::size_t p = 1; p < pieces.size(); ++p)

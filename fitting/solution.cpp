@@ -2,6 +2,7 @@
 #include "fitting/solution.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "fitting/polish.hpp"
 
@@ -41,20 +42,23 @@ Matrix Solution::covariance_of(std::size_t channel) const {
   return out;
 }
 
-Solution solve(Terms& terms, const SolveOptions& options, const std::vector<CorrelatedComponent>& correlated) {
+Solution solve(Terms& terms, const SolveOptions& options, const std::vector<CorrelatedComponent>& correlated, std::vector<Minimum> known) {
   const SearchSpace space(terms.kernel, options.nonlinear, options.alike);
   Solution solution;
   Laps lap;
   Found found;
   for (int round = 0;; ++round) {
-    const Profile profile(terms, options.limits);
-    found = round == 0 ? search_globally(profile, space, options.threads) : follow(profile, space, found.minima, options.threads);
+    Profile profile(terms, options.limits);
+    found = search_globally(profile, space, options.threads, std::move(known));
     if (found.minima.empty() || !std::isfinite(found.minima.front().point.cost)) {
       solution.reason = "the cost is not finite anywhere on the scan";
       return solution;
     }
     const ProfilePoint& lowest = found.minima.front().point;
-    if (round < reweighting_rounds && reweight(terms, lowest.linear(), lowest.theta)) continue;
+    if (round < reweighting_rounds && reweight(terms, lowest.linear(), lowest.theta)) {
+      known = std::move(found.minima);
+      continue;
+    }
 
     solution.converged = true;
     std::vector<OtherSolution> all = polished(terms, space, found, options, solution);

@@ -67,7 +67,9 @@ struct SolveOptions {
 };
 
 /// Scan, minima, polish, and three rounds of weights from the fitted values where the data allow them; then the intervals.
-Solution solve(Terms& terms, const SolveOptions& options, const std::vector<CorrelatedComponent>& correlated);
+/// `known`: as for search_globally.
+Solution solve(Terms& terms, const SolveOptions& options, const std::vector<CorrelatedComponent>& correlated,
+               std::vector<Minimum> known = {});
 
 /// Fills the estimates of a solution (numerics D.4, D.5): profile intervals in the cost, a sigma only where both ends exist. The interval
 /// of a parameter is the hull of its values over all sets of parameters with a cost of at most the least cost plus

@@ -37,8 +37,8 @@ std::vector<std::vector<double>> inverse_variance(const Terms& terms, const std:
 
 }  // namespace
 
-Weighting weigh_and_convolve(Terms& terms, const SolveOptions& how, const WeigherOptions& weigher, const Observations* observations,
-                             const FitOptions& options, ApertureEffect& effect) {
+Weighed weigh_and_convolve(Terms& terms, const SolveOptions& how, const WeigherOptions& weigher, const Observations* observations,
+                           const FitOptions& options, ApertureEffect& effect) {
   bool open = false;
   for (std::size_t b = 0; observations && b < observations->block_count() && !open; ++b) {
     const Apertures stated = observations->apertures(b);
@@ -51,14 +51,14 @@ Weighting weigh_and_convolve(Terms& terms, const SolveOptions& how, const Weighe
   for (int round = 0;; ++round) {
     PointFit point_fit(terms, how);
     Weighting out = weigh(terms, weigher, [&](bool global) { return point_fit(global); });
-    if (!look || round == most_rounds || !point_fit(!point_fit.last())) return out;
+    if (!look || round == most_rounds || !point_fit(!point_fit.last())) return {std::move(out), point_fit.minima()};
     const ProfilePoint& at = point_fit.last()->point;
     const std::size_t rows = terms.mean.row.size(), nodes = terms.mean.geometry.size();
     ApertureEffect now = convolve(terms, *observations, at.linear(), at.theta,
                                   inverse_variance(terms, before, out, at, weigher.free_parameters), options.threads);
     const bool settled = terms.mean.row.size() == rows && terms.mean.geometry.size() == nodes;
     if (effect.reason.empty() || now.on) effect = std::move(now);
-    if (settled) return out;
+    if (settled) return {std::move(out), point_fit.minima()};
     terms.channel = before;
   }
 }

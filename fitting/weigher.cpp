@@ -166,7 +166,7 @@ class Weigher {
 
   /// The scale of the residuals where the weights are those of the data: 1 for stated uncertainties that are too large.
   void estimate_scale(const Fitted& fitted, bool robust) {
-    if (!robust) return;
+    if (!robust || estimated_) return;
     const double moment = truncated_second_moment(truncation);
     for (std::size_t c = 0; c < base_.size(); ++c) {
       scale2_[c] = 1;

@@ -17,16 +17,25 @@ TEST_CASE("a data set is observed in blocks without a copy") {
     data->f[0].push_back(static_cast<double>(k));
   }
   const auto observations = observe(data);
-  REQUIRE(observations->block_count() == 2);
-  const ObservationBlock second = observations->block(1);
-  CHECK(second.size == 5);
-  CHECK(second.f[0].data == data->f[0].data() + Observations::max_block);
-  CHECK(second.f[0][4] == static_cast<double>(n - 1));
-  CHECK(second.u.empty());
-  std::vector<LobeGeometry> geometry;
-  observations->geometry(1, geometry);
-  REQUIRE(geometry.size() == 5);
-  CHECK(geometry[0].cos_o == data->angles[Observations::max_block].theta_o.cos());
+  REQUIRE(observations->block_count() > 1);
+  std::size_t first = 0;
+  for (std::size_t b = 0; b < observations->block_count(); ++b) {
+    const ObservationBlock block = observations->block(b);
+    REQUIRE(block.size <= Observations::max_block);
+    CHECK(block.f[0].data == data->f[0].data() + first);
+    CHECK(block.f[0][block.size - 1] == static_cast<double>(first + block.size - 1));
+    CHECK(block.u.empty());
+    std::vector<LobeGeometry> geometry, some;
+    observations->geometry(b, geometry);
+    REQUIRE(geometry.size() == block.size);
+    CHECK(geometry[0].cos_o == data->angles[first].theta_o.cos());
+    const std::vector<std::size_t> last{block.size - 1};
+    observations->geometry_of(b, last, some);
+    REQUIRE(some.size() == 1);
+    CHECK(some[0].cos_o == geometry.back().cos_o);
+    first += block.size;
+  }
+  CHECK(first == n);
 }
 
 TEST_CASE("a column of floats with stride and scale reads in double") {

@@ -102,3 +102,20 @@ TEST_CASE("no point of the set lies outside the range of a parameter, and the en
     }
   }
 }
+
+TEST_CASE("a column whose squares are denormal numbers takes nothing from the others") {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  for (int draw = 0; draw < 200; ++draw) {
+    Matrix block(16, 3);
+    for (std::size_t row = 0; row < 16; ++row) {
+      block(row, 0) = 1;
+      block(row, 1) = std::exp(-373 + 0.02 * draw) * std::abs(normal(random));  // its square lies between 1e-324 and 1e-318
+      block(row, 2) = normal(random);
+    }
+    const double wanted = length(block.column(2));
+    Triangle triangle(3);
+    triangle.add(block, 16);
+    CHECK(length(triangle.r().column(2)) == Approx(wanted).epsilon(1e-13));
+  }
+}
