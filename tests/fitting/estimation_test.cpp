@@ -6,6 +6,7 @@
 
 #include "fitting/fit.hpp"
 #include "tests/fitting/ngan_grid.hpp"
+#include "tests/fitting/wrong_readings.hpp"
 
 #include "tests/check.hpp"
 
@@ -34,12 +35,7 @@ TEST_CASE("1 % of readings 20 times too high move the exponent by less than 0.3 
   for (const double s : {50.0, 2000.0})
     for (unsigned seed = 1; seed <= 3; ++seed) {
       auto data = noisy(s).draw(seed);
-      std::mt19937_64 random(seed);
-      std::bernoulli_distribution wrong(.01);
-      std::size_t count = 0;
-      for (auto& f : data->f)
-        for (double& value : f)
-          if (wrong(random)) value *= 20, ++count;
+      const std::size_t count = spoil(data->f, seed);
       const FitResult result = fit_of(data);
       INFO("s " << s << ", seed " << seed << ": " << result.weighting.reason);
       CHECK(s_of(result) == Approx(s).epsilon(.003));
@@ -54,11 +50,7 @@ TEST_CASE("1 % of readings 20 times too high move the exponent by less than 0.3 
 
 TEST_CASE("least squares alone is led astray by the same readings") {
   auto data = noisy(50).draw(1);
-  std::mt19937_64 random(1);
-  std::bernoulli_distribution wrong(.01);
-  for (auto& f : data->f)
-    for (double& value : f)
-      if (wrong(random)) value *= 20;
+  spoil(data->f, 1);
   FitOptions options;
   options.model = "blinn-phong-ngan";
   options.robust = Robust::none;
