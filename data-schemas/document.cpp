@@ -16,7 +16,11 @@ std::string read_file(const std::filesystem::path& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(std::generic_category().message(errno));
-  std::string bytes(std::istreambuf_iterator<char>(file), {});
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  std::string bytes(ignored ? 0 : static_cast<std::size_t>(size), '\0');
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
+  bytes.append(std::istreambuf_iterator<char>(file), {});  // a pipe has no size, a file may have grown
   if (file.bad()) fail(std::generic_category().message(errno));
   return bytes;
 }

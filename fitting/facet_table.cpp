@@ -148,8 +148,9 @@ FacetTable::LobeBatch lobe_of(const ModelKernel& kernel) {
   return out;
 }
 
-/// Filled up to a whole number of batches, so that the loops need no ends.
-void pad(std::vector<float>& column, float with) { column.resize((column.size() + at_once - 1) / at_once * at_once, with); }
+/// A whole number of batches, so that the loops need no ends.
+std::size_t padded(std::size_t size) { return (size + at_once - 1) / at_once * at_once; }
+void pad(std::vector<float>& column, float with) { column.resize(padded(column.size()), with); }
 
 }  // namespace
 
@@ -183,9 +184,8 @@ FacetTable::Piece FacetTable::piece_of(const Observations& observations, std::si
     }
   }
   const auto picked = [&](const auto& from, auto&& convert, float padding) {
-    std::vector<float> out(piece.sample.size());
-    for (std::size_t j = 0; j < out.size(); ++j) out[j] = convert(from[piece.sample[j]]);
-    pad(out, padding);
+    std::vector<float> out(padded(piece.sample.size()), padding);
+    for (std::size_t j = 0; j < piece.sample.size(); ++j) out[j] = convert(from[piece.sample[j]]);
     return out;
   };
   const auto same = [](float value) { return value; };

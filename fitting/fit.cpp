@@ -88,6 +88,7 @@ SolveOptions solve_options(const FitOptions& options, const ModelKernel& kernel,
 WeigherOptions weigher_options(const FitOptions& options) {
   const bool by_default = options.weights == Weights::automatic && !options.metric;
   WeigherOptions out;
+  out.threads = options.threads;
   out.estimate_variance = options.weights == Weights::variance || by_default;
   out.robust = options.robust.value_or(by_default ? Robust::automatic : Robust::none);
   return out;

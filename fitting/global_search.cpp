@@ -261,6 +261,15 @@ std::vector<std::vector<double>> places_of(const std::vector<Minimum>& minima) {
   return out;
 }
 
+/// Whether the profile falls towards a point from both sides, a step of the scan away: a minimum of some rows may be none of all.
+bool falls_on_both_sides(const Profile& profile, const SearchSpace& space, const Minimum& at, int threads) {
+  const SearchAxis& axis = space.axes().front();
+  const double step = (axis.scan_high - axis.scan_low) / (scan_points - 1);
+  const auto cost = [&](double z) { return profile.at(space.theta(std::span(&z, 1)), threads).cost; };
+  const double z = at.z.front(), middle = cost(z);
+  return (z - step < axis.low || cost(z - step) > middle) && (z + step > axis.high || cost(z + step) > middle);
+}
+
 /// The points worth a descent, far from each other, the lowest first.
 std::vector<std::vector<double>> starts_among(const SearchSpace& space, std::vector<Candidate> candidates) {
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
@@ -321,14 +330,13 @@ Found search_globally(Profile& profile, const SearchSpace& space, int threads, s
   const bool line = space.dimension() == 1;
   // Twice as many rows are still searched whole: thinning them gains less than the second look at all rows costs.
   if (!terms.sums && terms.rows() <= 2 * rows_for_search && (line || known.empty())) return search_rows(profile, space, threads);
-  std::size_t looked_at = terms.rows();
+  std::size_t looked_at = std::min(terms.rows(), rows_for_search);  // at least, by whoever knows the minima
   if (terms.sums) {
     const Terms few = part_of_sums(terms);
     looked_at = few.sums->rows();
     known = search_axis(Profile(few, profile.limits()), space, threads, coarse).minima;
   } else if (known.empty()) {
     const Terms few = thinned(terms, rows_for_search);
-    looked_at = few.rows();
     known = search_rows(Profile(few, profile.limits()), space, threads).minima;
   }
   const auto refined = [&](std::vector<Minimum> minima) {
@@ -338,11 +346,14 @@ Found search_globally(Profile& profile, const SearchSpace& space, int threads, s
   };
   if (line && terms.transform.linear()) {
     if (std::optional<StretchFound> found = search_on_stretch(profile, space, known.front(), looked_at, threads)) {
-      std::vector<Minimum> all = refined({known.begin() + 1, known.end()});
-      std::erase_if(all, [&](const Minimum& other) { return found->covers(other.z.front()); });
-      all.insert(all.begin(), std::move(found->lowest));
-      if (std::all_of(all.begin() + 1, all.end(), [&](const Minimum& other) { return other.point.cost > found->well_above; }))
-        return {std::move(found->scan), distinct(profile, space, std::move(all), threads)};
+      std::vector<Minimum> others(known.begin() + 1, known.end());
+      if (!terms.sums) std::erase_if(others, [&](const Minimum& other) { return !falls_on_both_sides(profile, space, other, threads); });
+      others = refined(std::move(others));
+      std::erase_if(others, [&](const Minimum& other) { return found->covers(other.z.front()); });
+      if (std::all_of(others.begin(), others.end(), [&](const Minimum& other) { return other.point.cost > found->well_above; })) {
+        others.insert(others.begin(), std::move(found->lowest));
+        return {std::move(found->scan), distinct(profile, space, std::move(others), threads)};
+      }
       profile.forget();
     }
   }

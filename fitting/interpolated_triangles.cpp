@@ -2,7 +2,6 @@
 #include "fitting/interpolated_triangles.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,7 +10,16 @@
 namespace gonio::fitting {
 namespace {
 
-constexpr std::size_t nodes = 10;
+constexpr double digits = 1e-11;  // of the largest element
+constexpr std::size_t fewest_nodes = 5, most_nodes = 10;
+
+/// Enough for `digits` where the elements are analytic within π/2 of the axis, as those of lobes are in the logarithm of their width: every
+/// further node brings the factor π/reach (Bernstein's ellipse).
+std::size_t nodes_for(double reach) {
+  const double factor = std::numbers::pi / reach;
+  if (!(factor > 1)) return most_nodes;
+  return std::clamp(static_cast<std::size_t>(2 - std::log(digits) / std::log(factor)), fewest_nodes, most_nodes);
+}
 
 double& last(Matrix& r) { return r(r.rows() - 1, r.columns() - 1); }
 
@@ -26,10 +34,11 @@ void make_smooth(Matrix& r) {
 }  // namespace
 
 InterpolatedTriangles::InterpolatedTriangles(double low, double high, int threads, const std::function<Node(double place)>& at)
-    : node_(nodes) {
+    : node_(nodes_for(0.5 * (high - low))) {
+  const std::size_t nodes = node_.size();
   const double middle = 0.5 * (low + high), reach = 0.5 * (high - low);
   for_each_index(nodes, threads, [&](std::size_t k) {
-    node_[k] = at(middle - reach * std::cos(std::numbers::pi * static_cast<double>(k) / (nodes - 1)));
+    node_[k] = at(middle - reach * std::cos(std::numbers::pi * static_cast<double>(k) / static_cast<double>(nodes - 1)));
     for (Matrix& r : node_[k].triangles) make_smooth(r);
   });
   for (std::size_t k = 0; k < nodes; ++k) {
@@ -41,12 +50,13 @@ InterpolatedTriangles::InterpolatedTriangles(double low, double high, int thread
 }
 
 std::vector<Matrix> InterpolatedTriangles::at(double place) const {
-  std::array<double, nodes> part{};
+  const std::size_t nodes = node_.size();
+  std::vector<double> part(nodes, 0.0);
   double whole = 0;
   for (std::size_t k = 0; k < nodes; ++k) {
     const double apart = place - node_[k].place;
     if (apart == 0) {
-      part.fill(0);
+      std::fill(part.begin(), part.end(), 0.0);
       part[k] = whole = 1;
       break;
     }

@@ -19,20 +19,20 @@ PointFit::PointFit(const Terms& terms, const SolveOptions& options)
 
 std::optional<std::vector<std::vector<double>>> PointFit::operator()(bool global) {
   const Profile profile(terms_, options_.limits);
-  if (minima_.empty() || global) {
+  const bool search = global || minima_.empty();
+  if (search) {
     const Terms few = thinned(terms_, rows_for_search);
     Profile of_few(few, options_.limits);
     minima_ = search_globally(of_few, space_, options_.threads).minima;
-    if (minima_.empty() || !std::isfinite(minima_.front().point.cost)) return minima_.clear(), std::nullopt;
+    if (minima_.empty()) return std::nullopt;
+  } else if (space_.dimension() > 0) {
+    DescentOptions descent;
+    descent.threads = options_.threads;
+    descent.tolerance = settled * minima_.front().point.cost / static_cast<double>(terms_.rows());
+    minima_.front() = descend(profile, space_, minima_.front().z, descent);
   }
   Minimum& last = minima_.front();
-  DescentOptions descent;
-  descent.threads = options_.threads;
-  descent.tolerance = settled * last.point.cost / static_cast<double>(terms_.rows());
-  if (space_.dimension() == 0)
-    last.point = profile.at(space_.theta({}), options_.threads);
-  else
-    last = descend(profile, space_, last.z, descent);
+  if (search || space_.dimension() == 0) last.point = profile.at(last.point.theta, options_.threads);
   if (!std::isfinite(last.point.cost)) return minima_.clear(), std::nullopt;
   return fitted_values(terms_, last.point.linear(), last.point.theta);
 }

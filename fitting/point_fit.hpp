@@ -10,8 +10,8 @@
 
 namespace gonio::fitting {
 
-/// Fits the same terms again and again while somebody else changes their weights. A global search looks at a part of many rows and
-/// descends on all of them.
+/// Fits the same terms again and again while somebody else changes their weights. A global search finds the nonlinear parameters on a part
+/// of many rows, good to a few standard uncertainties of all; the linear ones are always those of all rows.
 class PointFit {
  public:
   /// Both must outlive this.

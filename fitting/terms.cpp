@@ -102,6 +102,9 @@ Terms block_rows(const Observations& observations, std::size_t index, std::size_
   out.channel.resize(channels);
   std::vector<LobeGeometry> geometry;
   observations.geometry(index, geometry);
+  out.geometry.reserve(block.size), out.sample.reserve(block.size);
+  for (ChannelTerms& terms : out.channel)
+    terms.target.reserve(block.size), terms.weight.reserve(block.size), terms.value.reserve(block.size);
   for (std::size_t k = 0; k < block.size; ++k) {
     const LobeGeometry& g = geometry[k];
     const std::optional<Omission> whole = omission(block, k, g.cos_i, g.cos_o);

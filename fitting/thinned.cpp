@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 namespace gonio::fitting {
@@ -12,7 +13,9 @@ namespace {
 /// Cells per octave of sin²/2 of an angle, from 1e-9 to 1: two per octave of the angle.
 int octave(double log_cos) {
   if (!(log_cos > LobeGeometry::no_lobe)) return 99;
-  return static_cast<int>(std::lround(std::log2(std::clamp(-log_cos, 1e-9, 10.0))));
+  int exponent = 0;
+  const double mantissa = std::frexp(std::clamp(-log_cos, 1e-9, 10.0), &exponent);
+  return mantissa < std::numbers::sqrt2 / 2 ? exponent - 1 : exponent;
 }
 
 long cell_of(const LobeGeometry& g) {

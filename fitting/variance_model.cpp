@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -15,7 +16,8 @@ namespace gonio::fitting {
 namespace {
 
 constexpr int lowest_octave = -40, octaves = 80;  // 1e-12 … 1e12 1/sr
-constexpr std::size_t per_octave = 4, incidence_classes = 4;
+constexpr int per_octave = 4;
+constexpr std::size_t incidence_classes = 4;
 constexpr double least_cosine = 1e-3;             // of the incidence, 89.94°: beyond it the tangent says nothing of the noise any more
 constexpr double enough_dof = 30;                 // below it a constant variance is all that can be told
 constexpr unsigned gain_part = 4, tilt_part = 8;  // of a set of parts; tilt grows with f like gain and is looked for beside it
@@ -23,17 +25,14 @@ constexpr int most_steps = 50;
 constexpr double settled = 1e-7;     // of the likelihood per degree of freedom
 constexpr double least_part = 1e-9;  // of the largest variance: keeps the weights of perfectly repeated cells finite
 
+/// The cell of 0 too is the lowest; f is not negative.
 std::size_t cell_of(double f, double tan2_i) noexcept {
-  int octave = 0;
-  std::size_t within = 0;
-  if (f > 0) {
-    const double mantissa = std::frexp(f, &octave);  // [0.5, 1)
-    within = static_cast<std::size_t>((mantissa - 0.5) * 2 * static_cast<double>(per_octave));
-    octave = std::clamp(octave - lowest_octave, 0, octaves - 1);
-  }
-  const double cosine = 1 / std::sqrt(1 + tan2_i);
-  const auto incidence = std::min(incidence_classes - 1, static_cast<std::size_t>(cosine * static_cast<double>(incidence_classes)));
-  return (static_cast<std::size_t>(octave) * per_octave + within) * incidence_classes + incidence;
+  // The exponent and the first two bits of the mantissa count quarters of octaves.
+  constexpr std::int64_t lowest = std::int64_t{1023 + lowest_octave} * per_octave, most = octaves * per_octave - 1;
+  const std::int64_t quarter = std::bit_cast<std::int64_t>(f) >> 50;
+  // Cosines of the incidence below 1/4, 1/2 and 3/4.
+  const std::size_t incidence = std::size_t{tan2_i <= 15} + std::size_t{tan2_i <= 3} + std::size_t{tan2_i <= 7.0 / 9};
+  return static_cast<std::size_t>(std::clamp<std::int64_t>(quarter - lowest, 0, most)) * incidence_classes + incidence;
 }
 
 struct Sums {
@@ -111,7 +110,7 @@ double tan_squared(double cosine) noexcept {
   return (1 - c) * (1 + c) / (c * c);
 }
 
-DeviationCells::DeviationCells() : cells_(static_cast<std::size_t>(octaves) * per_octave * incidence_classes) {}
+DeviationCells::DeviationCells() : cells_(std::size_t{octaves * per_octave} * incidence_classes) {}
 
 void DeviationCells::clear() noexcept {
   std::fill(cells_.begin(), cells_.end(), Cell{});

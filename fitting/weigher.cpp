@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fitting/row_weights.hpp"
+#include "fitting/threads.hpp"
 
 namespace gonio::fitting {
 namespace {
@@ -24,6 +25,7 @@ constexpr double enough_repeats = 0.2;     // part of the samples that must be r
 constexpr std::size_t fewest_values = 30;  // below it a variance, let alone an outlier, cannot be told
 constexpr double median_of_normal = 0.6744897501960817, least_median = 0.75;  // part of it; below: the tails are heavy
 constexpr double most_outliers = 0.25;                                        // a larger part of the data is no contamination
+constexpr std::size_t many_rows = 4096;                                       // worth several threads
 constexpr double rounding = 1e-12;  // of the largest value: exact data have at least this standard deviation
 
 using Fitted = std::vector<std::vector<double>>;
@@ -97,14 +99,21 @@ class Weigher {
     }
   }
 
+  /// Calls `work(channel)` for every channel.
+  template <class Work>
+  void for_each_channel(Work&& work) const {
+    for_each_index(base_.size(), terms_.rows() > many_rows ? options_.threads : 1, work);
+  }
+
   void set_weights(const Fitted& fitted, Robust loss) {
-    for (std::size_t c = 0; c < base_.size(); ++c)
+    for_each_channel([&](std::size_t c) {
       for (std::size_t row = 0; row < base_[c].size(); ++row) {
         double weight = kept_[c][row] ? plain_weight(c, row, fitted[c][row]) : 0;
         if (weight > 0 && (loss == Robust::huber || loss == Robust::cauchy))
           weight *= loss_weight(loss, standardised(c, row, fitted[c][row]));
         terms_.channel[c].weight[row] = weight;
       }
+    });
   }
 
   bool used(std::size_t c, std::size_t row) const { return base_[c][row] > 0 && kept_[c][row]; }
@@ -133,7 +142,7 @@ class Weigher {
 
   void fill_cells(const Fitted& fitted, double factor, const std::vector<VarianceModel>* limit) {
     cells_.resize(base_.size());
-    for (std::size_t c = 0; c < base_.size(); ++c) {
+    for_each_channel([&](std::size_t c) {
       cells_[c].clear();
       for (std::size_t row = 0; row < base_[c].size(); ++row) {
         if (!used(c, row)) continue;
@@ -142,7 +151,7 @@ class Weigher {
         if (limit) square = std::min(square, truncation * truncation * (*limit)[c](f, tan2_[row]));
         cells_[c].add(f, tan2_[row], factor * square);
       }
-    }
+    });
   }
 
   /// One model for all channels, or, where their mean squares do not agree with it, one each if the information criterion says so.
@@ -237,16 +246,16 @@ class Weigher {
 
   bool looks_clean(const Fitted& fitted) const {
     const double limit = outlier_limit(count_);
-    std::vector<double> sizes;
-    for (std::size_t c = 0; c < base_.size(); ++c) {
-      sizes.clear();
+    std::vector<char> clean(base_.size(), 1);
+    for_each_channel([&](std::size_t c) {
+      std::vector<double> sizes;
       for (std::size_t row = 0; row < base_[c].size(); ++row)
         if (used(c, row)) sizes.push_back(std::abs(standardised(c, row, fitted[c][row])));
-      if (sizes.empty()) continue;
-      if (*std::max_element(sizes.begin(), sizes.end()) > limit) return false;
-      if (estimated_ && sizes.size() >= fewest_values && median_of(sizes) < least_median * median_of_normal) return false;
-    }
-    return true;
+      if (sizes.empty()) return;
+      clean[c] = *std::max_element(sizes.begin(), sizes.end()) <= limit;
+      if (estimated_ && sizes.size() >= fewest_values && median_of(sizes) < least_median * median_of_normal) clean[c] = 0;
+    });
+    return std::all_of(clean.begin(), clean.end(), [](char one) { return one != 0; });
   }
 
   std::vector<std::pair<std::size_t, std::size_t>> far_rows(const Fitted& fitted) const {

@@ -19,6 +19,7 @@ struct WeigherOptions {
   Robust robust = Robust::none;
   std::size_t free_parameters = 0;            ///< of all channels of the terms together
   std::span<const RepeatedReadings> repeats;  ///< of the observations the terms were made from
+  int threads = 1;
 };
 
 /// Fitted values [1/sr] per channel and row under the weights that stand in the terms now; none if there is no solution.
