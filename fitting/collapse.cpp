@@ -108,7 +108,7 @@ CleanRange clean_range_of(const ObservationBlock& block, std::size_t channel) {
 }
 
 CollapsedBlock collapse_any(const Observations& observations, std::size_t index, const ObservationBlock& block, Transform transform,
-                            bool weighted) {
+                            bool weighted, std::span<const double> weights) {
   const std::size_t channels = block.f.size();
   const bool cosine = transform.metric == Metric::linear_cos && !weighted;
   std::vector<LobeGeometry> geometry;
@@ -128,7 +128,7 @@ CollapsedBlock collapse_any(const Observations& observations, std::size_t index,
       const double f = block.f[c][k], u = weighted ? block.u[c][k] : 1;
       const double slope = weighted ? transform.slope(f, 1) : 1;
       const double cos_i = cosine ? geometry[k].cos_i : 1;
-      const double weight = cos_i * cos_i / (u * u * slope * slope);
+      const double weight = (weights.empty() ? 1 : weights[k]) * cos_i * cos_i / (u * u * slope * slope);
       if (weight > 0) sums[c].add(weight, transform.value(f, 1));
       squares[c] += f * f / (u * u);
     }
@@ -144,11 +144,12 @@ CollapsedBlock collapse_any(const Observations& observations, std::size_t index,
 
 }  // namespace
 
-CollapsedBlock collapse(const Observations& observations, std::size_t index, Transform transform, bool weighted, Robust robust) {
+CollapsedBlock collapse(const Observations& observations, std::size_t index, Transform transform, bool weighted, Robust robust,
+                        std::span<const double> weights) {
   const ObservationBlock block = observations.block(index);
   const std::size_t channels = block.f.size();
-  const bool look = robust != Robust::none && !weighted;
-  if (transform.metric == Metric::linear && !weighted && plain(block)) {
+  const bool look = robust != Robust::none && !weighted && weights.empty();
+  if (transform.metric == Metric::linear && !weighted && weights.empty() && plain(block)) {
     PlainBlock out = collapse_plain(block);
     for (std::size_t c = 0; look && c < channels; ++c) {
       CleanRange clean = clean_range_of(block, c);
@@ -157,7 +158,7 @@ CollapsedBlock collapse(const Observations& observations, std::size_t index, Tra
     }
     return std::move(out.collapsed);
   }
-  CollapsedBlock out = collapse_any(observations, index, block, transform, weighted);
+  CollapsedBlock out = collapse_any(observations, index, block, transform, weighted, weights);
   for (std::size_t c = 0; look && c < channels; ++c) replace_sums(block, c, transform, robust, out);
   return out;
 }

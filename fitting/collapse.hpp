@@ -2,6 +2,7 @@
 // Blocks of samples reduced to their weight, mean and centred sum of squares.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "brdf/observations.hpp"
@@ -28,7 +29,8 @@ struct CollapsedBlock {
 ///
 /// `robust`: the loss of the mean (robust_mean) where a channel of an unweighted block does not look clean; a clean one keeps its plain
 /// sums, bit for bit. Values with their own u stay as they are.
+/// `weights`: factors of the weights of its samples, or none; then without `robust`.
 CollapsedBlock collapse(const Observations& observations, std::size_t index, Transform transform, bool weighted,
-                        Robust robust = Robust::none);
+                        Robust robust = Robust::none, std::span<const double> weights = {});
 
 }  // namespace gonio::fitting

@@ -166,6 +166,12 @@ void MeanRows::append(std::size_t number, std::span<const LobeGeometry> nodes, s
   first.push_back(geometry.size());
 }
 
+MeanRows MeanRows::renumbered(std::span<const std::size_t> sample) const {
+  MeanRows out = *this;
+  for (std::size_t& number : out.row) number = sample[number];
+  return out;
+}
+
 MeanRows MeanRows::of(std::span<const std::size_t> rows) const {
   MeanRows out;
   for (std::size_t j = 0; j < rows.size() && !row.empty(); ++j) {

@@ -23,6 +23,8 @@ struct MeanRows {
 
   bool empty() const noexcept { return row.empty(); }
   void append(std::size_t number, std::span<const LobeGeometry> nodes, std::span<const double> weights);
+  /// The same with sample[row] for every row.
+  MeanRows renumbered(std::span<const std::size_t> sample) const;
   /// Row j of the result is row rows[j] of these where that is a mean.
   MeanRows of(std::span<const std::size_t> rows) const;
 };

@@ -45,6 +45,8 @@ void require_usable(const FitOptions& options, const ModelInfo& info) {
   }
   if (!(options.confidence > 0 && options.confidence < 1))
     faults.push_back({"confidence", std::to_string(options.confidence), "a number between 0 and 1"});
+  if (options.weights == Weights::solid_angle && options.robust.value_or(Robust::none) != Robust::none)
+    faults.push_back({"robust", name(*options.robust), "none: solid angles say nothing of how wrong a reading may be"});
   if (!faults.empty()) throw Error(ErrorKind::usage, "the fit of model '" + options.model + "' cannot be set up", faults);
 }
 
@@ -243,9 +245,10 @@ void assemble(FitResult& result, const std::vector<Solution>& solutions, const M
 }
 
 /// The fit of terms that stand: everything but what only the observations know, the errors under every metric.
-/// `observations`: null if the terms come from sums, which have no apertures.
+/// `observations`: null if the terms come from sums, which have no apertures. `means`: the samples compared with means over apertures, of
+/// all channels or one for each.
 FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* observations, const FitOptions& options,
-                    WeigherOptions weigher, const std::vector<CorrelatedComponent>& correlated) {
+                    WeigherOptions weigher, const std::vector<CorrelatedComponent>& correlated, std::vector<MeanRows>& means) {
   const ModelKernel& kernel = terms.kernel;
   FitResult result;
   result.model = options.model;
@@ -269,6 +272,7 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
       weighed = weigh_and_convolve(these, how, weigher, observations, options, result.aperture);
       add_weighting(result.weighting, std::move(weighed.weighting), first);
     }
+    means.push_back(these.mean.renumbered(these.sample));
     result.stages.weights_s += lap();
     Solution solution = solve(these, how, correlated, std::move(weighed.minima));
     result.stages.scan_s += solution.scan_s;
@@ -333,30 +337,32 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   Weighting judged;
   StageTimes stages;
   Laps lap;
-  if (!options.per_channel) large = large_table(observations, kernel, minimised, options.threads);
+  const bool by_measure = options.weights == Weights::solid_angle;
+  if (!options.per_channel && !by_measure) large = large_table(observations, kernel, minimised, options.threads);
   stages.collapse_s = lap();
   if (large && !weigh_by_part(*large, weigher, solve_options(options, kernel, observations.channels().size()), judged)) large.reset();
   stages.weights_s = lap();
   std::optional<Terms> bins;
-  if (!large) bins = binned_terms(observations, kernel, minimised, options.ignore_apertures, weigher.robust, options.threads);
+  if (!large && !by_measure)
+    bins = binned_terms(observations, kernel, minimised, options.ignore_apertures, weigher.robust, options.threads);
   Terms terms = large  ? std::move(large->terms)
                 : bins ? std::move(*bins)
-                       : make_terms(observations, kernel, minimised, options.threads, weigher.robust);
+                       : make_terms(observations, kernel, minimised, options.threads, weigher.robust, options.weights);
   stages.collapse_s += lap();
   const auto repeats = weigher.estimate_variance && !terms.weighted && !terms.collapsed && !terms.sums ? repeated_readings(observations)
                                                                                                        : std::vector<RepeatedReadings>{};
   weigher.repeats = repeats;
   stages.weights_s += lap();
-  FitResult result = fit_terms(terms, observations.channels(), &observations, options, weigher, observations.correlated());
+  std::vector<MeanRows> means;
+  FitResult result = fit_terms(terms, observations.channels(), &observations, options, weigher, observations.correlated(), means);
   result.stages.collapse_s = stages.collapse_s;
   result.stages.weights_s += stages.weights_s;
   if (large) result.weighting = std::move(judged);
+  if (by_measure) result.weighting.source = WeightSource::solid_angle;
   result.metric = metric;
   if (!result.values.empty()) {
     lap();
-    const auto chi2_per_dof = result.errors.chi2_per_dof;
-    result.errors = fit_errors(observations, kernel, result.values, options.threads);
-    result.errors.chi2_per_dof = chi2_per_dof;
+    add_residuals(result, observations, kernel, means, options.threads);
     result.stages.errors_s = lap();
   }
   add_angles(result.weighting.outliers, observations);
@@ -374,7 +380,8 @@ FitResult fit(const SufficientStatistics& statistics, const FitOptions& options)
   require_estimable(statistics.weighted, statistics.rows, options);
   if (statistics.rows == SufficientStatistics::Rows::directions) weigher.estimate_variance = false, weigher.robust = Robust::none;
   Terms terms = make_terms(statistics, kernel);
-  FitResult result = fit_terms(terms, statistics.channels, nullptr, options, weigher, statistics.correlated);
+  std::vector<MeanRows> none;
+  FitResult result = fit_terms(terms, statistics.channels, nullptr, options, weigher, statistics.correlated, none);
   result.metric = statistics.metric;
   if (statistics.n_outliers > 0) {
     result.weighting.n_outliers += statistics.n_outliers;

@@ -13,6 +13,7 @@
 #include "fitting/checks/check.hpp"
 #include "fitting/convolution.hpp"
 #include "fitting/not_fitted.hpp"
+#include "fitting/residual_map.hpp"
 #include "fitting/stage_times.hpp"
 #include "fitting/weighting.hpp"
 
@@ -120,6 +121,7 @@ struct FitResult {
   /// Values per channel in table order, ready for AnalyticBrdf.
   std::vector<std::vector<double>> values;
   FitErrors errors;
+  ResidualMap residuals;
   /// Of `parameters` in their order; NaN in the rows and columns of a parameter without a sigma.
   std::vector<std::vector<double>> correlation;
   std::vector<Determined> determined;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Root mean square residuals of a fitted model under every metric.
+// Residuals of a fitted model: their root mean square under every metric, and where they are large.
 #pragma once
+
+#include <vector>
 
 #include "fitting/fit.hpp"
 #include "fitting/model_kernel.hpp"
@@ -8,11 +10,12 @@
 
 namespace gonio::fitting {
 
-/// Unweighted, over all channels together and every sample for which the metric is defined. Beyond 2^18 samples estimated from 2^15 of
-/// them, an even stride through every block, which keeps the cost of a whole table at a few milliseconds and the error of an rms below a
-/// percent. `chi2_per_dof` is left alone.
-FitErrors fit_errors(const Observations& observations, const ModelKernel& kernel, const std::vector<std::vector<double>>& values,
-                     int threads);
+/// Fills `errors` (all but chi2_per_dof) and `residuals` of a result whose values and weighting stand, from the samples of
+/// FittedSamples; of the part of a large table the error of an rms is below a percent.
+///   errors     unweighted, over all channels together and every sample for which the metric is defined
+///   residuals  without the outliers that the result lists, and where it has more than it lists without what is far from its cell
+void add_residuals(FitResult& result, const Observations& observations, const ModelKernel& kernel, const std::vector<MeanRows>& means,
+                   int threads);
 
 /// Root mean square of the residuals of rows whose weights are 1 (cos² θi under linear-cos), from their sums: exact for collapsed rows.
 double rms_of_rows(const Terms& terms, const std::vector<std::vector<double>>& values);

@@ -138,7 +138,7 @@ SufficientStatistics sufficient_statistics(const Observations& observations, con
 
   const bool by_default = options.weights == Weights::automatic && !options.metric;
   const Robust robust = options.robust.value_or(by_default ? Robust::automatic : Robust::none);
-  const Terms terms = make_terms(observations, kernel, out.metric, options.threads, robust);
+  const Terms terms = make_terms(observations, kernel, out.metric, options.threads, robust, options.weights);
   out.weighted = terms.weighted;
   require_estimable(terms.weighted, terms.collapsed ? SufficientStatistics::Rows::table_rows : SufficientStatistics::Rows::directions,
                     options);
@@ -177,6 +177,9 @@ SufficientStatistics sufficient_statistics(const Observations& observations, con
 }
 
 void require_estimable(bool weighted, SufficientStatistics::Rows rows, const FitOptions& options) {
+  if (options.weights == Weights::solid_angle || (weighted && options.weights == Weights::none))
+    throw Error(ErrorKind::usage,
+                {"weights", name(options.weights), weighted ? "uncertainty, which the sums were made with" : "none, or those of the data"});
   if (rows == SufficientStatistics::Rows::table_rows) return;
   const bool by_default = options.weights == Weights::automatic && !options.metric;
   if (!weighted && (by_default || options.weights == Weights::variance))

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "fitting/collapse.hpp"
+#include "fitting/solid_angles.hpp"
 #include "fitting/threads.hpp"
 
 namespace gonio::fitting {
@@ -71,9 +72,9 @@ void append(Terms& to, const Terms& part) {
 }
 
 Terms collapsed_block(const Observations& observations, std::size_t index, std::size_t first_sample, Transform transform, bool weighted,
-                      Robust robust) {
+                      Robust robust, std::span<const double> weights) {
   Terms out;
-  CollapsedBlock sums = collapse(observations, index, transform, weighted, robust);
+  CollapsedBlock sums = collapse(observations, index, transform, weighted, robust, weights);
   LobeGeometry geometry;
   geometry.log_cos_h = observations.block(index).log_cos_h;
   out.geometry.push_back(geometry);
@@ -95,7 +96,8 @@ Terms collapsed_block(const Observations& observations, std::size_t index, std::
   return out;
 }
 
-Terms block_rows(const Observations& observations, std::size_t index, std::size_t first_sample, Transform transform, bool weighted) {
+Terms block_rows(const Observations& observations, std::size_t index, std::size_t first_sample, Transform transform, bool weighted,
+                 std::span<const double> weights) {
   Terms out;
   const ObservationBlock block = observations.block(index);
   const std::size_t channels = block.f.size();
@@ -126,7 +128,7 @@ Terms block_rows(const Observations& observations, std::size_t index, std::size_
       const double u = weighted && use[c] ? block.u[c][k] : 1;
       const double slope = weighted && use[c] ? transform.slope(f, g.cos_i) : 1;
       const double cosine = transform.metric == Metric::linear_cos && !weighted ? g.cos_i : 1;
-      const double weight = use[c] ? cosine * cosine / (u * u * slope * slope) : 0;
+      const double weight = use[c] ? (weights.empty() ? 1 : weights[k]) * cosine * cosine / (u * u * slope * slope) : 0;
       terms.target.push_back(use[c] ? transform.value(f, g.cos_i) : 0);
       terms.weight.push_back(std::isfinite(weight) ? weight : 0);
       terms.value.push_back(f);
@@ -181,21 +183,24 @@ void Terms::basis_and_slopes(std::size_t begin, std::size_t end, const double* t
             });
 }
 
-Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads, Robust robust) {
+Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads, Robust robust, Weights weights) {
   const std::size_t blocks = observations.block_count();
   Terms terms;
   terms.kernel = kernel;
   terms.transform = {metric};
   terms.channel.resize(observations.channels().size());
-  terms.weighted = carries_uncertainty(observations);
+  const bool by_measure = weights == Weights::solid_angle;
+  const std::vector<double> measure = by_measure ? solid_angles(observations) : std::vector<double>{};
+  terms.weighted = weights != Weights::none && !by_measure && carries_uncertainty(observations);
   terms.collapsed = can_collapse(observations, kernel, metric);
   if (terms.collapsed) terms.rows_of = RowsOf::table_rows;
   std::vector<std::size_t> first(blocks + 1, 0);
   for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + observations.block(b).size;
   std::vector<Terms> parts(blocks);
   for_each_index(blocks, threads, [&](std::size_t b) {
-    parts[b] = terms.collapsed ? collapsed_block(observations, b, first[b], terms.transform, terms.weighted, robust)
-                               : block_rows(observations, b, first[b], terms.transform, terms.weighted);
+    const auto own = by_measure ? std::span(measure).subspan(first[b], first[b + 1] - first[b]) : std::span<const double>{};
+    parts[b] = terms.collapsed ? collapsed_block(observations, b, first[b], terms.transform, terms.weighted, robust, own)
+                               : block_rows(observations, b, first[b], terms.transform, terms.weighted, own);
   });
   for (const Terms& part : parts) append(terms, part);
   return terms;

@@ -63,13 +63,15 @@ struct Terms {
 ///   - what an Omission says (not_fitted.hpp) is left out and counted;
 ///   - the data carry u if every channel has it for at least half of its values; then values with unknown u are left out too, otherwise
 ///     every weight is 1;
+///     Under `weights` none and solid_angle u is ignored; under solid_angle that takes the place of 1 (Error(usage) for scattered samples);
 ///   - a sample with a zenith angle of exactly 90° is compared with the model's limit there.
 /// `n_observations` counts samples with a value used, `not_fitted` those with a value left out.
 ///
 /// Blocks over which θh is constant collapse to one row if the model depends on nothing else and the metric allows it (log1p does not):
 /// Σ w (φ - φ̂)² = W (φ̄ - φ̂)² + Σ w (φ - φ̄)², exact, with the centred sum formed apart.
 /// `robust`: the loss of the mean of such a row, see collapse.hpp; nothing where the rows are single samples.
-Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads, Robust robust = Robust::none);
+Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads, Robust robust = Robust::none,
+                 Weights weights = Weights::automatic);
 
 /// The terms of one channel alone; it becomes channel 0 of its outliers.
 Terms only_channel(const Terms& terms, std::size_t channel);

@@ -9,8 +9,11 @@
 namespace gonio::fitting {
 namespace {
 
-constexpr std::array<std::pair<Weights, const char*>, 4> weights_names{
-    {{Weights::automatic, "auto"}, {Weights::none, "none"}, {Weights::uncertainty, "uncertainty"}, {Weights::variance, "variance"}}};
+constexpr std::array<std::pair<Weights, const char*>, 5> weights_names{{{Weights::automatic, "auto"},
+                                                                        {Weights::none, "none"},
+                                                                        {Weights::uncertainty, "uncertainty"},
+                                                                        {Weights::variance, "variance"},
+                                                                        {Weights::solid_angle, "solid_angle"}}};
 
 }  // namespace
 
@@ -29,6 +32,7 @@ std::optional<Weights> weights_named(std::string_view text) {
 const char* name(WeightSource source) noexcept {
   switch (source) {
     case WeightSource::none: return "none";
+    case WeightSource::solid_angle: return "solid_angle";
     case WeightSource::uncertainty: return "uncertainty";
     case WeightSource::repeats: return "repeats";
     case WeightSource::rows: return "rows";

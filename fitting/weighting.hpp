@@ -18,15 +18,18 @@ namespace gonio::fitting {
 ///   automatic    1/u² where the data carry u; else 1/σ² of a variance model estimated from the data if no metric is named, and 1 if
 ///                one is: then the sum is the metric as its table has it, and nothing else
 ///   none         1, whatever the data carry
+///   solid_angle  what the sample stands for of all pairs of directions, whatever the data carry (solid_angles.hpp): the sum is an
+///                integral of the metric. Trap: the intervals take the noise for smaller where the weight is larger
 ///   uncertainty  1/u² where the data carry u, else 1
 ///   variance     1/u² where the data carry u, else the variance model under any metric
-enum class Weights { automatic, none, uncertainty, variance };
+enum class Weights { automatic, none, uncertainty, variance, solid_angle };
 const char* name(Weights weights) noexcept;
 std::optional<Weights> weights_named(std::string_view text);
 
 /// Where the weights came from.
 enum class WeightSource {
   none,         ///< every weight 1 (cos² θi under linear-cos)
+  solid_angle,  ///< what the samples stand for (times cos² θi under linear-cos)
   uncertainty,  ///< u of the data
   repeats,      ///< a variance model from readings of the same directions: independent of the model that is fitted
   rows,         ///< the scatter within the rows of a table over which the model is constant: independent of it too

@@ -10,6 +10,7 @@
 #include "tools/fit_job.hpp"
 #include "tools/fit_lines.hpp"
 #include "tools/fit_merge.hpp"
+#include "tools/residual_picture.hpp"
 #include "tools/verbs.hpp"
 
 namespace gonio::tools {
@@ -29,8 +30,8 @@ std::vector<std::string> names_from(const std::string& list) {
   return out;
 }
 
-int fit_together(const std::vector<std::string>& files, const FitRequest& request, const std::string& out, Stopwatch::time_point start,
-                 Console& console) {
+int fit_together(const std::vector<std::string>& files, const FitRequest& request, const std::string& out, const std::string& picture,
+                 Stopwatch::time_point start, Console& console) {
   std::vector<HashedInput> hashes;
   if (console.json || !out.empty()) hashes = hash_inputs(files, request.read);
   const FitInput input = read_inputs(files, request.read, console);
@@ -42,6 +43,7 @@ int fit_together(const std::vector<std::string>& files, const FitRequest& reques
     if (!out.empty()) write_file_atomically(out, document.dump(2) + "\n");
     if (console.json) console.print_json(document);
   }
+  if (!picture.empty()) draw_residuals(outcome.result, picture);
   if (!console.json)
     for (const std::string& line : fit_lines(outcome.result, input.masked)) console.print(line);
   return outcome.result.status == fitting::Status::converged ? 0 : 1;
@@ -61,6 +63,7 @@ int fit_verb(const Arguments& arguments, Console& console) {
   ChoiceFlags choice;
   BatchOptions batch;
   bool together = false, merge = false, lines = false;
+  std::string picture;
   app.add_option("FILE", names, "Any readable BRDF files, or folders of them");
   app.add_option("--files-from", list, "More files, one a line; - reads standard input");
   flags.add_to(app);
@@ -70,6 +73,7 @@ int fit_verb(const Arguments& arguments, Console& console) {
   app.add_flag("--lines", lines, "JSON lines for a single file too");
   app.add_option("--jobs", batch.jobs, "Files fitted at a time (default: as many as processors)")->check(CLI::PositiveNumber);
   app.add_option("--out", batch.out, "Write the JSON document, or the JSON lines, to this file");
+  app.add_option("--residual-map", picture, "Draw where the model misses the data as this PNG (one fit, with gnuplot)");
   app.add_flag("--resume", batch.resume, "JSON lines: go on with --out, leaving out what stands there");
   app.add_flag("--ordered", batch.ordered, "JSON lines in the order of the files");
   add_common(app, console);
@@ -84,6 +88,9 @@ int fit_verb(const Arguments& arguments, Console& console) {
   const std::vector<std::string> files = expand_folders(names);
   if (files.empty()) throw Error(ErrorKind::usage, {"gonio fit", "no file", "FILE, or a folder with measurements in it"});
   if (batch.resume && batch.out.empty()) throw Error(ErrorKind::usage, {"--resume", "no --out", "the file of JSON lines to go on with"});
+  const bool one_by_one = models.empty() && !together && !merge && (lines || files != names || files.size() > 1 || !list.empty());
+  if (!picture.empty() && (merge || !models.empty() || one_by_one))
+    throw Error(ErrorKind::usage, {"--residual-map", "no single fit of samples", "one model and one file, or --together"});
   if (merge) {
     if (lines || together || batch.resume || batch.ordered || !models.empty())
       throw Error(ErrorKind::usage, {"--merge", "a batch or several models", "one model for all statistics together"});
@@ -94,10 +101,9 @@ int fit_verb(const Arguments& arguments, Console& console) {
       throw Error(ErrorKind::usage, {"--model", "several models for many files", "one file, or --together; or a single model"});
     return fit_choice(files, models, request, choice, batch.jobs, batch.out, console);
   }
-  const bool one_by_one = !together && (lines || files != names || files.size() > 1 || !list.empty());
   if (one_by_one) return fit_batch(files, request, batch, console);
   if (batch.resume || batch.ordered) throw Error(ErrorKind::usage, {"--resume, --ordered", "a single fit", "several files, or --lines"});
-  return fit_together(files, request, batch.out, start, console);
+  return fit_together(files, request, batch.out, picture, start, console);
 }
 
 }  // namespace gonio::tools

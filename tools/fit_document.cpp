@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/fit_document.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 namespace gonio::tools {
 namespace {
@@ -40,6 +45,38 @@ Json likelihood_document(const fitting::FitLikelihood& likelihood) {
                        {"n", static_cast<std::int64_t>(likelihood.n)},
                        {"aicc", finite_or_null(likelihood.aicc())},
                        {"bic", finite_or_null(likelihood.bic())}});
+}
+
+/// Four digits: a residual says no more.
+Json short_number(double value) { return std::stod(fmt::format("{:.4g}", value)); }
+
+/// The cells that hold samples in any channel, column by column.
+Json residual_map_document(const fitting::FitResult& result) {
+  const fitting::ResidualMap& map = result.residuals;
+  std::vector<std::size_t> filled;
+  for (std::size_t k = 0; k < map.channel.front().size(); ++k)
+    if (std::any_of(map.channel.begin(), map.channel.end(), [k](const auto& cells) { return cells[k].count > 0; })) filled.push_back(k);
+  Json::Array theta_i, theta_o, channels;
+  for (const std::size_t k : filled) {
+    theta_i.push_back(fitting::ResidualMap::theta_i_deg(k));
+    theta_o.push_back(fitting::ResidualMap::theta_o_deg(k));
+  }
+  for (std::size_t c = 0; c < map.channel.size(); ++c) {
+    Json::Array count, mean, rms;
+    for (const std::size_t k : filled) {
+      const fitting::ResidualCell& cell = map.channel[c][k];
+      count.push_back(static_cast<std::int64_t>(cell.count));
+      mean.push_back(cell.count > 0 ? short_number(cell.mean) : Json());
+      rms.push_back(cell.count > 0 ? short_number(cell.rms) : Json());
+    }
+    channels.push_back(Json::object({{"channel", result.channels[c].name}, {"count", count}, {"mean", mean}, {"rms", rms}}));
+  }
+  return Json::object({{"unit", map.sigma_known ? "sigma" : "rms"},
+                       {"step_deg", fitting::ResidualMap::step_deg},
+                       {"n_samples", static_cast<std::int64_t>(map.n_samples)},
+                       {"theta_i_deg", theta_i},
+                       {"theta_o_deg", theta_o},
+                       {"channels", channels}});
 }
 
 Json minima_document(const fitting::FitResult& result) {
@@ -133,6 +170,7 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
   document.set("determined", determined_document(result));
   if (result.likelihood.n > 0) document.set("likelihood", likelihood_document(result.likelihood));
   document.set("errors", errors_document(result.errors));
+  if (result.residuals.n_samples > 0) document.set("residual_map", residual_map_document(result));
   document.set("weighting", weighting_document(result));
   document.set("apertures", Json::object({{"on", result.aperture.on},
                                           {"reason", result.aperture.reason.empty() ? Json() : Json(result.aperture.reason)},

@@ -10,7 +10,7 @@ namespace gonio::tools {
 namespace {
 
 constexpr const char* metric_list = "linear, linear-cos, log, log1p or cbrt";
-constexpr const char* weights_list = "auto, none, uncertainty or variance";
+constexpr const char* weights_list = "auto, none, uncertainty, variance or solid_angle";
 constexpr const char* robust_list = "auto, none, huber or cauchy";
 
 /// The value that `named` finds for a flag's text; nothing if the flag was not given. Error(usage) with the `known` ones.

@@ -41,6 +41,25 @@ std::string interval_text(const fitting::FittedParameter& p, double confidence) 
   return {};
 }
 
+/// The cell whose mean residual is farthest from chance; empty if none is.
+std::string residual_line(const fitting::FitResult& result) {
+  const fitting::ResidualMap& map = result.residuals;
+  constexpr double beyond_chance = 5;  // standard deviations of a mean: none of a few hundred cells by chance
+  double farthest = beyond_chance;
+  std::string text;
+  for (std::size_t c = 0; c < map.channel.size(); ++c)
+    for (std::size_t k = 0; k < map.channel[c].size(); ++k) {
+      const fitting::ResidualCell& cell = map.channel[c][k];
+      const double significance = std::abs(cell.mean) * std::sqrt(static_cast<double>(cell.count));
+      if (significance <= farthest) continue;
+      farthest = significance;
+      text = fmt::format("  misses most near theta_i {:g}°, theta_o {:g}°: data - fit = {:+.2g} {} in the mean of {} readings{}",
+                         fitting::ResidualMap::theta_i_deg(k), fitting::ResidualMap::theta_o_deg(k), cell.mean,
+                         map.sigma_known ? "σ" : "rms", cell.count, map.channel.size() > 1 ? ", channel " + result.channels[c].name : "");
+    }
+  return text;
+}
+
 /// Where the weights came from, in one line; empty where every sample counted alike.
 std::string weighting_line(const fitting::FitResult& result) {
   const fitting::Weighting& weighting = result.weighting;
@@ -73,6 +92,7 @@ std::vector<std::string> fit_lines(const fitting::FitResult& result, const Maske
   if (result.errors.chi2_per_dof)
     errors += fmt::format("{}chi2 per degree of freedom {:.3f}", errors.empty() ? "  " : "; ", *result.errors.chi2_per_dof);
   if (!errors.empty()) lines.push_back(errors);
+  if (const std::string line = residual_line(result); !line.empty()) lines.push_back(line);
   if (const std::string line = weighting_line(result); !line.empty()) lines.push_back(line);
   if (const std::string text = masked_text(masked, result.not_fitted); !text.empty()) lines.push_back("  " + text);
   if (!result.rows.reason.empty()) lines.push_back("  " + result.rows.reason);
