@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <set>
 #include <utility>
 
@@ -39,6 +40,8 @@ class Residuals {
     const ObservationBlock data = observations_.block(index);
     const FittedBlock of = samples_.block(index);
     BlockResiduals out;
+    std::vector<std::uint16_t> cell;
+    for (const LobeGeometry& geometry : of.geometry) cell.push_back(residual_cell(geometry));
     for (std::size_t c = 0; c < of.fitted.size(); ++c) {
       std::vector<CellResidual>& cells = out.cell.emplace_back();
       for (std::size_t j = 0; j < of.sample.size(); ++j) {
@@ -50,7 +53,7 @@ class Residuals {
         }
         const double z = standardised(data, c, of.sample[j], f, fitted, cos_i);
         if (!std::isfinite(z) || left_out_.contains({of.first + of.sample[j], c})) continue;
-        cells.push_back({residual_cell(of.geometry[j]), static_cast<float>(z)});
+        cells.push_back({cell[j], static_cast<float>(z)});
       }
     }
     return out;
@@ -105,7 +108,7 @@ void add_residuals(FitResult& result, const Observations& observations, const Mo
     std::vector<CellResidual> all;
     for (const BlockResiduals& part : parts) all.insert(all.end(), part.cell[c].begin(), part.cell[c].end());
     if (!map.sigma_known) scale(all);
-    map.channel.push_back(residual_cells(all, unlisted));
+    map.channel.push_back(unlisted ? clean_residual_cells(all) : residual_cells(all));
     map.n_samples = std::max(map.n_samples, all.size());
   }
   result.residuals = std::move(map);

@@ -36,14 +36,28 @@ std::uint16_t residual_cell(const LobeGeometry& g) noexcept {
   return static_cast<std::uint16_t>(step_of(g.cos_i) * ResidualMap::steps_out + (beside_light ? steps - 1 - out : steps + out));
 }
 
-std::vector<ResidualCell> residual_cells(const std::vector<CellResidual>& residuals, bool reject) {
+std::vector<ResidualCell> residual_cells(const std::vector<CellResidual>& residuals) {
+  std::vector<ResidualCell> out(cells);
+  for (const CellResidual& r : residuals) {
+    const auto z = static_cast<double>(r.z);
+    ResidualCell& cell = out[r.cell];
+    ++cell.count, cell.mean += z, cell.rms += z * z;
+  }
+  for (ResidualCell& cell : out) {
+    const double n = static_cast<double>(cell.count);
+    if (n > 0) cell.mean /= n, cell.rms = std::sqrt(cell.rms / n);
+  }
+  return out;
+}
+
+std::vector<ResidualCell> clean_residual_cells(const std::vector<CellResidual>& residuals) {
   std::array<std::vector<double>, cells> by_cell;
   for (const CellResidual& r : residuals) by_cell[r.cell].push_back(static_cast<double>(r.z));
   std::vector<ResidualCell> out(cells);
   std::vector<double> scratch;
   for (std::size_t k = 0; k < cells; ++k) {
     if (by_cell[k].empty()) continue;
-    const RobustMean mean = robust_mean(by_cell[k], reject ? Robust::automatic : Robust::none, scratch);
+    const RobustMean mean = robust_mean(by_cell[k], Robust::automatic, scratch);
     out[k] = {mean.count, mean.mean, std::sqrt(mean.mean * mean.mean + mean.within / static_cast<double>(mean.count))};
   }
   return out;

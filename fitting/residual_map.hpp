@@ -46,7 +46,9 @@ struct CellResidual {
   float z = 0;
 };
 
-/// The cells of one channel. `reject`: wrong readings may be among them; those far from the others of their cell count in none.
-std::vector<ResidualCell> residual_cells(const std::vector<CellResidual>& residuals, bool reject);
+/// The cells of one channel.
+std::vector<ResidualCell> residual_cells(const std::vector<CellResidual>& residuals);
+/// The same where wrong readings may be among them: those far from the others of their cell count in none.
+std::vector<ResidualCell> clean_residual_cells(const std::vector<CellResidual>& residuals);
 
 }  // namespace gonio::fitting

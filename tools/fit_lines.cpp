@@ -53,9 +53,12 @@ std::string residual_line(const fitting::FitResult& result) {
       const double significance = std::abs(cell.mean) * std::sqrt(static_cast<double>(cell.count));
       if (significance <= farthest) continue;
       farthest = significance;
-      text = fmt::format("  misses most near theta_i {:g}°, theta_o {:g}°: data - fit = {:+.2g} {} in the mean of {} readings{}",
-                         fitting::ResidualMap::theta_i_deg(k), fitting::ResidualMap::theta_o_deg(k), cell.mean,
-                         map.sigma_known ? "σ" : "rms", cell.count, map.channel.size() > 1 ? ", channel " + result.channels[c].name : "");
+      const double theta_i = fitting::ResidualMap::theta_i_deg(k), theta_o = fitting::ResidualMap::theta_o_deg(k);
+      const double half = fitting::ResidualMap::step_deg / 2;
+      text =
+          fmt::format("  misses most at theta_i {:g} to {:g}°, theta_o {:g} to {:g}°: data - fit = {:+.2g} {} in the mean of {} readings{}",
+                      theta_i - half, theta_i + half, theta_o - half, theta_o + half, cell.mean, map.sigma_known ? "σ" : "rms", cell.count,
+                      map.channel.size() > 1 ? ", channel " + result.channels[c].name : "");
     }
   return text;
 }

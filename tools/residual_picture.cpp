@@ -60,7 +60,7 @@ std::string script(const fitting::FitResult& result, const std::string& output) 
   const std::size_t columns = channels.size() == 1 ? 1 : 2, rows = (channels.size() + columns - 1) / columns;
   const double scale = scale_of(map, channels);
   // Pixels: equal tiles of two squares side by side, with a heading above and the scale at the right.
-  const double tile = channels.size() == 1 ? 1100 : 760, tile_height = tile / 2 + 60, heading = 70, scale_width = 130;
+  const double tile = channels.size() == 1 ? 1100 : 760, tile_height = tile / 2 + 65, heading = 70, scale_width = 130;
   const double width = tile * static_cast<double>(columns) + scale_width, height = tile_height * static_cast<double>(rows) + heading;
   std::string text;
   for (const std::size_t c : channels) {
@@ -83,9 +83,10 @@ std::string script(const fitting::FitResult& result, const std::string& output) 
                                      : "")),
       1 - 46 / height);
   text += fmt::format(
-      "unset key\nset xrange [-90:90]\nset yrange [0:90]\nset xtics 30 format '%g°' out nomirror\nset ytics 15 format '%g°' out nomirror\n"
-      "set mxtics 3\nset border lc rgb '#444444'\nset palette defined (-1 '#2166ac', -0.5 '#92c5de', 0 '#f7f7f7', 0.5 '#f4a582', 1 "
-      "'#b2182b')\nset cbrange [-{0}:{0}]\nset format cb '%+g'\nset colorbox user origin screen {1},0.2 size screen {2},0.6\n"
+      "unset key\nset xrange [-90:90]\nset yrange [0:90]\nset xtics 30 format '%g°' out nomirror\nset ytics 30 format '%g°' out nomirror\n"
+      "set mxtics 3\nset mytics 3\nset border lc rgb '#444444'\nset palette defined (-1 '#2166ac', -0.5 '#92c5de', 0 '#f7f7f7', 0.5 "
+      "'#f4a582', 1 "
+      "'#b2182b')\nset cbrange [-{0}:{0}]\nset format cb '%g'\nset colorbox user origin screen {1},0.2 size screen {2},0.6\n"
       "set object 1 rectangle from -90,0 to 90,90 behind fillcolor rgb '#c8c8c8' fillstyle solid noborder\n"
       "set arrow 1 from 0,0 to 0,90 nohead front lc rgb '#444444'\n"
       "set xlabel 'light side       outgoing zenith angle       mirror side'\nset ylabel 'incident zenith angle'\n",
@@ -94,7 +95,7 @@ std::string script(const fitting::FitResult& result, const std::string& output) 
     const std::vector<ResidualCell>& cells = map.channel[channels[panel]];
     const double x = tile * static_cast<double>(panel % columns), y = heading + tile_height * static_cast<double>(panel / columns);
     text += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\nset tmargin at screen {}\nset bmargin at screen {}\n",
-                        (x + 80) / width, (x + tile - 10) / width, 1 - (y + 25) / height, 1 - (y + tile_height - 60) / height);
+                        (x + 90) / width, (x + tile - 10) / width, 1 - (y + 25) / height, 1 - (y + tile_height - 70) / height);
     text += fmt::format("set title {} noenhanced offset 0,-0.5\n", gnuplot_quoted("channel " + result.channels[channels[panel]].name));
     for (std::size_t k = 0; k < cells.size(); ++k) {
       if (std::abs(cells[k].mean) * std::sqrt(static_cast<double>(cells[k].count)) <= beyond_chance) continue;

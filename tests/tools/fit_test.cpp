@@ -142,3 +142,64 @@ TEST_CASE("a row of NaN and a row below the horizon are masked and reported, and
   CHECK(fit("flawed.csv", "").out.find("masked: 2 NaN, 1 marked as missing, 1 below the horizon\n") != std::string::npos);
   CHECK(fit("clean.csv", "").out.find("masked") == std::string::npos);
 }
+
+TEST_CASE("fit tells where the model misses the data, in the document, the text and a picture") {
+  const test::TemporaryFolder folder;
+  std::string text = "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value,u_value\n";
+  for (int theta_i = 0; theta_i < 80; theta_i += 10)
+    for (int theta_o = 0; theta_o < 80; theta_o += 2)
+      for (int phi = 0; phi < 360; phi += 30)
+        text += std::to_string(theta_i) + ",0," + std::to_string(theta_o) + "," + std::to_string(phi) + "," +
+                (theta_i == 60 && theta_o > 60 && phi >= 90 && phi <= 270 ? "0.2" : "0.1") + ",0.002\n";
+  test::write_file(folder / "forward.csv", text);
+  const std::string fit = "fit '" + (folder / "forward.csv").string() + "' --model lambert --metric linear ",
+                    png = (folder / "map.png").string();
+  const Json document = run_gonio(fit + "--json").json();
+  CHECK(faults_of(document, Schema::fit, "fit").empty());
+  const Json& map = document.at("residual_map");
+  CHECK(map.at("unit").string() == "sigma");
+  const Json& channel = map.at("channels")[0];
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < map.at("theta_i_deg").size(); ++k) {
+    const bool there = map.at("theta_i_deg")[k].number() == 65 && map.at("theta_o_deg")[k].number() > 60;
+    CHECK((channel.at("mean")[k].number() > 5) == there);
+    found += there;
+  }
+  CHECK(found == 2);
+  const auto drawn = run_gonio(fit + "--residual-map '" + png + "'");
+  INFO(drawn.err);
+  CHECK(drawn.out.find("misses most at theta_i 60 to 70°, theta_o 70 to 80°") != std::string::npos);
+  CHECK(test::read_file(png).substr(1, 3) == "PNG");
+  CHECK(run_gonio("fit '" + folder.path().string() + "' --model lambert --residual-map '" + png + "'").code == 2);
+}
+
+TEST_CASE("fit --weights none ignores the uncertainties, --weights solid_angle wants a grid") {
+  const test::TemporaryFolder folder;
+  std::string with_u = "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value,u_value\n",
+              without = "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value\n";
+  for (int theta_i = 0; theta_i < 80; theta_i += 20)
+    for (int theta = 0; theta < 80; theta += 2) {
+      const std::string row = std::to_string(theta_i) + ",0," + std::to_string(theta) + ",180," +
+                              std::to_string(.1 + std::exp(-.01 * (theta - theta_i) * (theta - theta_i)));
+      with_u += row + "," + std::to_string(.001 + .0001 * theta) + "\n", without += row + "\n";
+    }
+  test::write_file(folder / "u.csv", with_u);
+  test::write_file(folder / "bare.csv", without);
+  test::write_file(folder / "scattered.csv", without + "11,3,17,29,0.1\n22,5,33,111,0.1\n44,7,55,231,0.1\n");
+  const auto fit = [&](const char* file, const char* flags) {
+    return run_gonio("fit '" + (folder / file).string() + "' --model blinn-phong --json " + flags);
+  };
+  const Json ignored = fit("u.csv", "--weights none").json(), bare = fit("bare.csv", "--weights none").json();
+  CHECK(ignored.at("weighting").at("source").string() == "none");
+  CHECK(ignored.at("errors").at("chi2_per_dof").is_null());
+  CHECK(ignored.at("parameters").dump() == bare.at("parameters").dump());
+  CHECK(ignored.at("parameters").dump() != fit("u.csv", "").json().at("parameters").dump());
+  const auto measured = fit("u.csv", "--weights solid_angle");
+  CHECK(measured.code == 0);
+  CHECK(faults_of(measured.json(), Schema::fit, "fit").empty());
+  CHECK(measured.json().at("weighting").at("source").string() == "solid_angle");
+  CHECK(measured.json().at("parameters").dump() != ignored.at("parameters").dump());
+  const auto refused = fit("scattered.csv", "--weights solid_angle");
+  CHECK(refused.code == 2);
+  CHECK(refused.err.find("scattered directions") != std::string::npos);
+}
