@@ -7,14 +7,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "brdf/model_info.hpp"
 #include "tools/output.hpp"
 
 namespace gonio::tools {
 namespace {
-
-std::string channel_name(const fitting::FitResult& result, const fitting::FittedParameter& parameter) {
-  return parameter.channel ? result.channels[*parameter.channel].name : std::string();
-}
 
 /// Decimals that show two significant digits of a width.
 int decimals_for(double width) { return width > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(width))), 0, 15) : 15; }
@@ -39,6 +36,83 @@ std::string interval_text(const fitting::FittedParameter& p, double confidence) 
     case IntervalKind::fixed: return "held fixed";
   }
   return {};
+}
+
+using Row = std::vector<std::string>;
+
+/// Characters, of which UTF-8 takes several bytes for some.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+/// Columns as wide as their widest cell, indented by two.
+std::vector<std::string> aligned(const std::vector<Row>& rows) {
+  std::vector<std::size_t> width;
+  for (const Row& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (k == width.size()) width.push_back(0);
+      width[k] = std::max(width[k], width_of(row[k]));
+    }
+  std::vector<std::string> out;
+  for (const Row& row : rows) {
+    std::string line;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      line += "  " + row[k];
+      if (k + 1 < row.size()) line += std::string(width[k] - width_of(row[k]), ' ');
+    }
+    out.push_back(line);
+  }
+  return out;
+}
+
+std::string value_text(const fitting::FittedParameter& p, const ModelInfo& model) {
+  const std::string number = p.sigma && *p.sigma > 0 ? with_uncertainty(p.value, *p.sigma) : fmt::format("{:.6g}", p.value);
+  const auto known = std::find_if(model.parameters.begin(), model.parameters.end(), [&](const Parameter& q) { return q.name == p.name; });
+  return known == model.parameters.end() || known->unit == "1" ? number : fmt::format("{} {}", number, known->unit);
+}
+
+/// The same where there is no room for an interval beside it.
+std::string short_text(const fitting::FittedParameter& p, const ModelInfo& model) {
+  using fitting::IntervalKind;
+  switch (p.kind) {
+    case IntervalKind::interval: return value_text(p, model);
+    case IntervalKind::lower_bound: return fmt::format("> {:.4g}", p.low.value_or(NAN));
+    case IntervalKind::upper_bound: return fmt::format("< {:.4g}", p.high.value_or(NAN));
+    case IntervalKind::unidentified: return "undetermined";
+    case IntervalKind::fixed: return fmt::format("{:.6g} fixed", p.value);
+  }
+  return {};
+}
+
+/// A line for every parameter; of many channels a line for every channel, with what belongs to it, and then the shared ones.
+std::vector<std::string> parameter_lines(const fitting::FitResult& result) {
+  constexpr std::size_t few_channels = 4;
+  const ModelInfo& model = model_info(result.model);
+  const std::size_t channels = result.channels.size();
+  std::vector<Row> table(1, Row{"channel"}), rows;
+  for (const fitting::FittedParameter& p : result.parameters) {
+    if (p.channel && channels > few_channels) {
+      if (std::find(table[0].begin(), table[0].end(), p.name) == table[0].end()) table[0].push_back(p.name);
+      table.resize(std::max(table.size(), *p.channel + 2));
+      Row& row = table[*p.channel + 1];
+      if (row.empty()) row.push_back(result.channels[*p.channel].name);
+      row.push_back(short_text(p, model));
+      continue;
+    }
+    Row row{p.name};
+    if (channels > 1 && channels <= few_channels) row.push_back(p.channel ? result.channels[*p.channel].name : "");
+    row.push_back(value_text(p, model));
+    row.push_back(interval_text(p, result.confidence));
+    rows.push_back(std::move(row));
+  }
+  std::vector<std::string> lines;
+  if (table.size() > 1) {
+    lines = aligned(table);
+    lines.push_back(
+        fmt::format("  (± one standard uncertainty; --json has the {:g} % intervals of all channels)", 100 * result.confidence));
+  }
+  for (std::string& line : aligned(rows)) lines.push_back(std::move(line));
+  return lines;
 }
 
 /// The cell whose mean residual is farthest from chance; empty if none is.
@@ -78,13 +152,10 @@ std::string weighting_line(const fitting::FitResult& result) {
 
 std::vector<std::string> fit_lines(const fitting::FitResult& result, const MaskedCounts& masked) {
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("{} by {}: {}{}, {} samples", result.model, name(result.metric), name(result.status),
-                              result.reason.empty() ? "" : " (" + result.reason + ")", result.n_observations));
-  for (const auto& p : result.parameters) {
-    const std::string channel = channel_name(result, p);
-    const std::string value = p.sigma && *p.sigma > 0 ? with_uncertainty(p.value, *p.sigma) : fmt::format("{:.6g}", p.value);
-    lines.push_back(fmt::format("  {:<8} {:<8} {:<26} {}", p.name, channel, value, interval_text(p, result.confidence)));
-  }
+  lines.push_back(fmt::format("{} by {}: {}{}, {} samples{}", result.model, name(result.metric), name(result.status),
+                              result.reason.empty() ? "" : " (" + result.reason + ")", result.n_observations,
+                              result.channels.size() > 1 ? fmt::format(", {} channels", result.channels.size()) : ""));
+  for (std::string& line : parameter_lines(result)) lines.push_back(std::move(line));
   std::string errors;
   for (const auto& [metric, error] : {std::pair{"linear", result.errors.linear},
                                       {"linear-cos", result.errors.linear_cos},

@@ -37,6 +37,21 @@ Json incidence_document(const fitting::IncidenceAlbedo& incidence) {
                        {"missing_bound", incidence.missing_bound}});
 }
 
+/// A line broken at blanks where it is longer than a wide terminal, what follows behind `indent` blanks.
+std::vector<std::string> wrapped(const std::string& line, std::size_t indent) {
+  constexpr std::size_t width = 120;
+  std::vector<std::string> out;
+  std::string rest = line;
+  while (rest.size() > width) {
+    const std::size_t at = rest.rfind(' ', width);
+    if (at == rest.npos || at <= indent) break;
+    out.push_back(rest.substr(0, at));
+    rest = std::string(indent, ' ') + rest.substr(at + 1);
+  }
+  out.push_back(rest);
+  return out;
+}
+
 /// Sets `name` to the list of documents if there are any.
 template <class T>
 void set_list(Json& document, const char* name, const std::vector<T>& items, Json (*item_document)(const T&)) {
@@ -137,11 +152,15 @@ Json checks_document(const std::vector<fitting::Check>& checks, Json context) {
 }
 
 std::vector<std::string> check_lines(const std::vector<fitting::Check>& checks) {
+  constexpr std::size_t indent = 28;
+  constexpr double least_p = 1e-15;  // below it the digits are those of the distribution's far tail
   std::vector<std::string> lines;
   for (const auto& check : checks) {
     std::string p;
-    if (check.p_value) p = fmt::format(" (p = {:.2g})", *check.p_value);
-    lines.push_back(fmt::format("  {:<16} {:<8} {}{}", check.id, name(check.verdict), check.detail, p));
+    if (check.p_value) p = *check.p_value < least_p ? fmt::format(" (p < {:g})", least_p) : fmt::format(" (p = {:.2g})", *check.p_value);
+    for (std::string& line : wrapped(fmt::format("  {:<16} {:<8} {}{}", check.id, name(check.verdict), check.detail, p), indent))
+      lines.push_back(std::move(line));
+    if (check.verdict == fitting::Verdict::vacuous) continue;  // its places tell as little as it does
     for (const auto& place : check.where) lines.push_back("    at " + place_text(place));
   }
   return lines;

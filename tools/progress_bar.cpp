@@ -23,6 +23,16 @@ void ProgressBar::advance(bool skipped, const std::string& note) {
   const std::lock_guard lock(guard_);
   ++done_;
   if (!skipped) ++worked_;
+  show(note);
+}
+
+void ProgressBar::reach(std::size_t done, const std::string& note) {
+  const std::lock_guard lock(guard_);
+  done_ = worked_ = done;
+  show(note);
+}
+
+void ProgressBar::show(const std::string& note) {
   const auto now = Clock::now();
   if (now - shown_ < console_.progress_interval()) return;
   shown_ = now;

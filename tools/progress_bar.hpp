@@ -23,8 +23,12 @@ class ProgressBar {
   void expect(std::size_t total);
   /// A piece is done; one that cost no work (`skipped`) does not shorten the time the others are expected to take.
   void advance(bool skipped = false, const std::string& note = {});
+  /// So many of equally costly pieces are done now.
+  void reach(std::size_t done, const std::string& note);
 
  private:
+  void show(const std::string& note);
+
   using Clock = std::chrono::steady_clock;
   const Console& console_;
   const std::string what_;

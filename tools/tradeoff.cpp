@@ -3,8 +3,6 @@
 #include "tools/tradeoff/tradeoff.hpp"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <system_error>
 
@@ -12,12 +10,13 @@
 
 #include "data-schemas/document.hpp"
 #include "tools/gnuplot.hpp"
+#include "tools/progress_bar.hpp"
 #include "tools/verbs.hpp"
 
 namespace gonio::tools {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+constexpr std::size_t percent = 100;
 
 const tradeoff::Topic& topic_named(const std::string& name) {
   std::string known;
@@ -27,32 +26,6 @@ const tradeoff::Topic& topic_named(const std::string& name) {
   }
   throw Error(ErrorKind::usage, {"TOPIC", "'" + name + "'", "one of " + known});
 }
-
-/// A bar with the time left, no more often than the console wants it.
-class ProgressBar {
- public:
-  ProgressBar(const Console& console, std::string name) : console_(console), name_(std::move(name)) {}
-  ~ProgressBar() { console_.progress(""); }
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
-
-  void operator()(double part, std::string_view what) {
-    const auto now = Clock::now();
-    if (now - shown_ < console_.progress_interval()) return;
-    shown_ = now;
-    constexpr std::size_t width = 24;
-    const auto filled = std::min(width, static_cast<std::size_t>(std::max(0.0, part) * width));
-    const double spent = std::chrono::duration<double>(now - start_).count();
-    const std::string left = part > 0.02 ? fmt::format(", {:.0f} s left", spent * (1 - part) / part) : std::string();
-    console_.progress(fmt::format("{} [{}{}] {:3.0f} %{}  {}", name_, std::string(filled, '#'), std::string(width - filled, '.'),
-                                  100 * part, left, what));
-  }
-
- private:
-  const Console& console_;
-  std::string name_;
-  Clock::time_point start_ = Clock::now(), shown_{};
-};
 
 }  // namespace
 
@@ -76,8 +49,8 @@ int tradeoff_verb(const Arguments& arguments, Console& console) {
 
   tradeoff::Measured measured;
   {
-    ProgressBar bar(console, "tradeoff " + name);
-    effort.progress = [&](double part, std::string_view what) { bar(part, what); };
+    ProgressBar bar(console, "tradeoff " + name, percent);
+    effort.progress = [&](double part, std::string_view what) { bar.reach(static_cast<std::size_t>(percent * part), std::string(what)); };
     measured = topic.measure(effort);
   }
   tradeoff::mark_front(measured.points);

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "data-schemas/document.hpp"
 #include "tests/command.hpp"
@@ -202,4 +205,32 @@ TEST_CASE("fit --weights none ignores the uncertainties, --weights solid_angle w
   const auto refused = fit("scattered.csv", "--weights solid_angle");
   CHECK(refused.code == 2);
   CHECK(refused.err.find("scattered directions") != std::string::npos);
+}
+
+TEST_CASE("fit prints a line a parameter for few channels and a line a channel for many, none of them longer than a wide terminal") {
+  const test::TemporaryFolder folder;
+  const auto lines_of = [&](int channels) {
+    std::string text = "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg";
+    for (int c = 0; c < channels; ++c) text += "," + std::to_string(400 + 50 * c) + "nm";
+    for (int theta = 0; theta < 80; theta += 2) {
+      text += "\n30,0," + std::to_string(theta) + ",180";
+      for (int c = 0; c < channels; ++c) text += "," + std::to_string(.1 * (c + 1) + std::exp(-.01 * (theta - 30) * (theta - 30)));
+    }
+    test::write_file(folder / "samples.csv", text + "\n");
+    const std::string out = run_gonio("fit '" + (folder / "samples.csv").string() + "' --model blinn-phong --metric linear").out;
+    std::vector<std::string> lines;
+    for (std::size_t at = 0, end; (end = out.find('\n', at)) != out.npos; at = end + 1) lines.push_back(out.substr(at, end - at));
+    return lines;
+  };
+  const auto count = [](const std::vector<std::string>& lines, const char* what) {
+    return std::count_if(lines.begin(), lines.end(), [&](const std::string& line) { return line.find(what) != line.npos; });
+  };
+  const auto one = lines_of(1), many = lines_of(6);
+  CHECK(count(one, "95 % interval [") == 3);
+  CHECK(count(one, "channel") == 0);
+  CHECK(count(many, "95 % interval [") == 1);
+  CHECK(count(many, "  channel  rho_d") == 1);
+  for (int c = 0; c < 6; ++c) CHECK(count(many, (std::to_string(400 + 50 * c) + "nm ").c_str()) >= 1);
+  for (const auto& lines : {one, many})
+    for (const std::string& line : lines) CHECK(line.size() <= 125);
 }
