@@ -21,15 +21,26 @@ void set_half_vector(LobeGeometry& g, double beta2, double hz) noexcept {
   g.cos_d = std::min(1.0, 0.5 * std::sqrt(beta2 + hz * hz));
 }
 
+/// half(a - b) and half(a + b) without the cosines of the whole angle.
+Angle half_difference(const Angle& a, const Angle& b) noexcept {
+  return a.made_from_degrees() && b.made_from_degrees() ? degrees((a.degrees() - b.degrees()) / 2)
+                                                        : radians((a.radians() - b.radians()) / 2);
+}
+Angle half_sum(const Angle& a, const Angle& b) noexcept {
+  return a.made_from_degrees() && b.made_from_degrees() ? degrees((a.degrees() + b.degrees()) / 2)
+                                                        : radians((a.radians() + b.radians()) / 2);
+}
+
 }  // namespace
 
 LobeGeometry lobe_geometry(const GonioAngles& angles) noexcept {
   const Angle& a = angles.theta_i;
   const Angle& b = angles.theta_o;
-  const Angle half_delta = half(angles.phi_o - angles.phi_i);  // its cosine is the sine of half the distance from the mirror azimuth
-  const Angle gap = half(a - b);
+  const Angle half_delta =
+      half_difference(angles.phi_o, angles.phi_i);  // its cosine is the sine of half the distance from the mirror azimuth
+  const Angle gap = half_difference(a, b);
   const double sines = a.sin() * b.sin(), off_plane = sines * half_delta.cos() * half_delta.cos();
-  const double sin_difference = 2 * half(a + b).cos() * gap.sin();
+  const double sin_difference = 2 * half_sum(a, b).cos() * gap.sin();
   const double hz = a.cos() + b.cos();
   LobeGeometry g;
   g.cos_i = a.cos();

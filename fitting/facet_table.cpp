@@ -68,6 +68,20 @@ template <class M>
   for (std::size_t k = 0; k < 5; ++k) out[k] += (all[k][0] + all[k][1]) + (all[k][2] + all[k][3]);
 }
 
+/// Adds Σ w, Σ w f, Σ w f² to out[0..2]; `weight` null: 1. `size` is a whole number of batches.
+[[gnu::always_inline]] inline void add_moments(const float* value, const float* weight, std::size_t size, double* out) {
+  Four s0{}, s1{}, s2{};
+  for (std::size_t k = 0; k < size; k += four) {
+    FourFloats v, w{1, 1, 1, 1};
+    std::memcpy(&v, value + k, sizeof v);
+    if (weight != nullptr) std::memcpy(&w, weight + k, sizeof w);
+    const Four f = __builtin_convertvector(v, Four), wide = __builtin_convertvector(w, Four), first = wide * f;
+    s0 += wide, s1 += first, s2 += first * f;
+  }
+  const Four all[] = {s0, s1, s2};
+  for (std::size_t k = 0; k < 3; ++k) out[k] += (all[k][0] + all[k][1]) + (all[k][2] + all[k][3]);
+}
+
 /// Adds Σ w b1 f, Σ w b2 f to out[0..1].
 [[gnu::always_inline]] inline void add_products(const double* b1, const double* b2, const float* value, const float* weight, double* out) {
   Four s1{}, s2{};
@@ -99,10 +113,13 @@ void products_anywhere(const double* b1, const double* b2, const float* value, c
   add_products(b1, b2, value, weight, out);
 }
 
+void moments_anywhere(const float* value, const float* weight, std::size_t size, double* out) { add_moments(value, weight, size, out); }
+
 struct Loops {
   void (*basis)(const float*, const float*, double*, double*) = basis_anywhere;
   void (*squares)(const double*, const double*, const float*, double*) = squares_anywhere;
   void (*products)(const double*, const double*, const float*, const float*, double*) = products_anywhere;
+  void (*moments)(const float*, const float*, std::size_t, double*) = moments_anywhere;
 };
 
 #if defined(__x86_64__)
@@ -114,6 +131,9 @@ template <class M>
 [[gnu::target("avx2")]] void basis_avx2(const float* lobe, const float* schlick, double* b1, double* b2) { basis(lobe, schlick, b1, b2); }
 [[gnu::target("avx2")]] void squares_avx2(const double* b1, const double* b2, const float* weight, double* out) {
   add_squares(b1, b2, weight, out);
+}
+[[gnu::target("avx2")]] void moments_avx2(const float* value, const float* weight, std::size_t size, double* out) {
+  add_moments(value, weight, size, out);
 }
 [[gnu::target("avx2")]] void products_avx2(const double* b1, const double* b2, const float* value, const float* weight, double* out) {
   add_products(b1, b2, value, weight, out);
@@ -127,7 +147,7 @@ const Loops& loops() {
   static const Loops these = [] {
     Loops out;
 #if defined(__x86_64__)
-    if (has_avx2()) out = {basis_avx2, squares_avx2, products_avx2};
+    if (has_avx2()) out = {basis_avx2, squares_avx2, products_avx2, moments_avx2};
 #endif
     return out;
   }();
@@ -202,11 +222,10 @@ FacetTable::Piece FacetTable::piece_of(const Observations& observations, std::si
 
 void FacetTable::Piece::sum_values() {
   moments.assign(value.size(), {});
-  for (std::size_t c = 0; c < value.size(); ++c)
-    for (std::size_t k = 0; k < sample.size(); ++k) {
-      const double w = weight.empty() ? 1 : weight[c][k], f = value[c][k];
-      moments[c][0] += w, moments[c][1] += w * f, moments[c][2] += w * f * f;
-    }
+  for (std::size_t c = 0; c < value.size(); ++c) {
+    loops().moments(value[c].data(), weight.empty() ? nullptr : weight[c].data(), value[c].size(), moments[c].data());
+    if (weight.empty()) moments[c][0] = static_cast<double>(sample.size());  // without those it was filled up with
+  }
 }
 
 std::unique_ptr<FacetTable> FacetTable::of(const Observations& observations, const ModelKernel& kernel, int threads) {
@@ -229,12 +248,12 @@ void FacetTable::count_rows() {
   for (const Piece& piece : pieces_) rows_ += piece.sample.size(), not_fitted_ += piece.not_fitted;
 }
 
-FacetTable FacetTable::every(std::size_t stride) const {
+FacetTable FacetTable::every(std::size_t stride, int threads) const {
   FacetTable out;
   out.lobe_ = lobe_;
   out.channels_ = channels_;
   out.pieces_.resize(pieces_.size());
-  for (std::size_t b = 0; b < pieces_.size(); ++b) {
+  for_each_index(pieces_.size(), threads, [&](std::size_t b) {
     const Piece& all = pieces_[b];
     Piece& some = out.pieces_[b];
     some.value.resize(channels_);
@@ -249,7 +268,7 @@ FacetTable FacetTable::every(std::size_t stride) const {
     pad(some.tan2_h, 0), pad(some.cos_i, 1), pad(some.cos_o, 1), pad(some.schlick, 0);
     for (auto& value : some.value) pad(value, 0);
     some.sum_values();
-  }
+  });
   out.count_rows();
   return out;
 }

@@ -30,7 +30,7 @@ class FacetTable {
   std::size_t channels() const noexcept { return channels_; }
   const NotFitted& not_fitted() const noexcept { return not_fitted_; }
   /// Every `stride`-th sample of every block. The numbers of the samples in their blocks: `samples(block)`.
-  FacetTable every(std::size_t stride) const;
+  FacetTable every(std::size_t stride, int threads) const;
   const std::vector<std::uint32_t>& samples(std::size_t block) const { return pieces_[block].sample; }
   /// Values of a channel in the order of `samples` [1/sr].
   std::span<const float> values(std::size_t block, std::size_t channel) const;

@@ -199,7 +199,7 @@ std::vector<std::vector<double>> correlation(const std::vector<Solution>& soluti
 }
 
 /// Solutions in channel order: one for all, or one per channel; the weighting stands in the result already.
-void assemble(FitResult& result, const std::vector<Solution>& solutions, const ModelKernel& kernel) {
+void assemble(FitResult& result, const std::vector<Solution>& solutions, const ModelKernel& kernel, int threads) {
   const auto& parameters = kernel.info->parameters;
   std::vector<Matrix> covariance;
   double chi2 = 0, dof = 0, budget = 0, signal_to_noise2 = 0;
@@ -240,7 +240,8 @@ void assemble(FitResult& result, const std::vector<Solution>& solutions, const M
   result.correlation = correlation(solutions, kernel);
   result.likelihood.n = count;
   if (absolute && dof >= 1) result.errors.chi2_per_dof = chi2 / dof;
-  result.checks = {energy_bound(result, kernel, covariance), at_bound(result), adequacy(chi2, dof, signal_to_noise2, count, absolute),
+  result.checks = {energy_bound(result, kernel, covariance, threads), at_bound(result),
+                   adequacy(chi2, dof, signal_to_noise2, count, absolute),
                    second_minimum(result, *kernel.info, budget, solutions.front().cost), identifiability(result)};
 }
 
@@ -289,7 +290,7 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
   }
   const auto broken = std::find_if(solutions.begin(), solutions.end(), [](const Solution& s) { return s.linear.empty(); });
   if (broken == solutions.end()) {
-    assemble(result, solutions, kernel);
+    assemble(result, solutions, kernel, options.threads);
   } else {
     result.status = Status::failed;
     result.reason = broken->reason;

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "fitting/distributions.hpp"
+#include "fitting/threads.hpp"
 
 namespace gonio::fitting {
 namespace {
@@ -18,18 +19,16 @@ constexpr double near_budgets = 3;
 
 }  // namespace
 
-Check energy_bound(const FitResult& result, const ModelKernel& kernel, const std::vector<Matrix>& covariance) {
-  Check check;
-  check.id = "energy_bound";
-  check.unit = std::string("1");
-  check.threshold = 1;
-  check.n = result.values.size();
-  double worst = -1;
-  for (std::size_t c = 0; c < result.values.size(); ++c) {
+Check energy_bound(const FitResult& result, const ModelKernel& kernel, const std::vector<Matrix>& covariance, int threads) {
+  struct Albedo {
+    double value = 0, variance = 0;
+  };
+  std::vector<Albedo> each(result.values.size());
+  for_each_index(each.size(), threads, [&](std::size_t c) {
     std::vector<double> values = result.values[c], gradient(values.size()), above(kernel.linear), below(kernel.linear);
     const auto [theta, phi] = kernel.info->brightest_incidence(values.data());
     kernel.info->albedo(theta, phi, values.data() + kernel.linear, gradient.data());
-    const double albedo =
+    each[c].value =
         kernel.info->closed_albedo
             ? kernel.info->albedo_bound(values.data())
             : std::inner_product(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(kernel.linear), gradient.begin(), 0.0);
@@ -43,16 +42,22 @@ Check energy_bound(const FitResult& result, const ModelKernel& kernel, const std
       if (!(step > 0)) continue;
       for (std::size_t k = 0; k < kernel.linear; ++k) gradient[j] += values[k] * (above[k] - below[k]) / (2 * step);
     }
-    if (albedo <= worst) continue;
-    worst = albedo;
     // A parameter that is fixed or at its bound has no variance to add.
-    double variance = 0;
     for (std::size_t a = 0; a < gradient.size(); ++a)
       for (std::size_t b = 0; b < gradient.size(); ++b)
-        if (std::isfinite(covariance[c](a, b))) variance += gradient[a] * covariance[c](a, b) * gradient[b];
-    check.effect = albedo;
-    check.u_effect = variance > 0 ? std::optional(std::sqrt(variance)) : std::nullopt;
-  }
+        if (std::isfinite(covariance[c](a, b))) each[c].variance += gradient[a] * covariance[c](a, b) * gradient[b];
+  });
+  Albedo most{-1, 0};
+  for (const Albedo& one : each)
+    if (one.value > most.value) most = one;
+  const double worst = most.value;
+  Check check;
+  check.id = "energy_bound";
+  check.unit = std::string("1");
+  check.threshold = 1;
+  check.n = result.values.size();
+  check.effect = worst;
+  check.u_effect = most.variance > 0 ? std::optional(std::sqrt(most.variance)) : std::nullopt;
   const double u = check.u_effect.value_or(0), z = u > 0 ? (worst - 1) / u : (worst > 1 ? 1e9 : -1e9);
   check.statistic = u > 0 ? std::optional(z) : std::nullopt;
   check.p_value = u > 0 ? std::optional(normal_upper_tail(z)) : std::nullopt;

@@ -10,7 +10,7 @@
 namespace gonio::fitting {
 
 /// energy_bound: Σ_k x_k · bound_k(s) <= 1, with the covariance of the fit. The largest channel counts.
-Check energy_bound(const FitResult& result, const ModelKernel& kernel, const std::vector<Matrix>& covariance);
+Check energy_bound(const FitResult& result, const ModelKernel& kernel, const std::vector<Matrix>& covariance, int threads);
 /// at_bound: parameters at an end of their search range.
 Check at_bound(const FitResult& result);
 /// adequacy: χ² against its degrees of freedom. The effect is the relative misfit beyond the stated noise, the τ with

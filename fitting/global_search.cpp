@@ -283,12 +283,12 @@ std::vector<std::vector<double>> starts_among(const SearchSpace& space, std::vec
 }
 
 /// The sums of a part of the rows, without rows.
-Terms part_of_sums(const Terms& terms) {
+Terms part_of_sums(const Terms& terms, int threads) {
   Terms out;
   out.kernel = terms.kernel;
   out.transform = terms.transform;
   out.channel.resize(terms.channel.size());
-  out.sums = terms.sums->few();
+  out.sums = terms.sums->few(threads);
   return out;
 }
 
@@ -332,7 +332,7 @@ Found search_globally(Profile& profile, const SearchSpace& space, int threads, s
   if (!terms.sums && terms.rows() <= 2 * rows_for_search && (line || known.empty())) return search_rows(profile, space, threads);
   std::size_t looked_at = std::min(terms.rows(), rows_for_search);  // at least, by whoever knows the minima
   if (terms.sums) {
-    const Terms few = part_of_sums(terms);
+    const Terms few = part_of_sums(terms, threads);
     looked_at = few.sums->rows();
     known = search_axis(Profile(few, profile.limits()), space, threads, coarse).minima;
   } else if (known.empty()) {

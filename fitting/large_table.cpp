@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fitting/point_fit.hpp"
+#include "fitting/threads.hpp"
 
 namespace gonio::fitting {
 namespace {
@@ -29,19 +30,24 @@ bool plain(const Observations& observations) {
 }
 
 /// Some samples of the table as rows. With `for_all` they stand for all of it.
-Terms rows_of(const Observations& observations, const ModelKernel& kernel, const FacetTable& table, const FacetTable& some, bool for_all) {
+Terms rows_of(const Observations& observations, const ModelKernel& kernel, const FacetTable& table, const FacetTable& some, bool for_all,
+              int threads) {
   Terms terms;
   terms.kernel = kernel;
   terms.transform = {Metric::linear};
   terms.channel.resize(table.channels());
   terms.n_observations = table.rows();
   terms.not_fitted = table.not_fitted();
-  std::size_t first = 0;
-  for (std::size_t b = 0; b < observations.block_count(); ++b) {
+  std::vector<std::vector<LobeGeometry>> geometry(observations.block_count());
+  for_each_index(geometry.size(), threads, [&](std::size_t b) {
     const std::vector<std::size_t> samples(some.samples(b).begin(), some.samples(b).end());
-    std::vector<LobeGeometry> geometry;
-    if (!samples.empty()) observations.geometry_of(b, samples, geometry);
-    terms.geometry.insert(terms.geometry.end(), geometry.begin(), geometry.end());
+    if (!samples.empty()) observations.geometry_of(b, samples, geometry[b]);
+  });
+  terms.geometry.reserve(some.rows());
+  std::size_t first = 0;
+  for (std::size_t b = 0; b < geometry.size(); ++b) {
+    const std::vector<std::uint32_t>& samples = some.samples(b);
+    terms.geometry.insert(terms.geometry.end(), geometry[b].begin(), geometry[b].end());
     for (const std::size_t sample : samples) terms.sample.push_back(first + sample);
     const double stands_for =
         for_all && !samples.empty() ? static_cast<double>(table.samples(b).size()) / static_cast<double>(samples.size()) : 1;
@@ -64,8 +70,9 @@ Terms rows_of(const Observations& observations, const ModelKernel& kernel, const
 
 std::vector<Matrix> FacetSums::triangles(double alpha, int threads) const { return triangles_of_sums(table_->sums(alpha, threads)); }
 
-std::shared_ptr<RowSums> FacetSums::few() const {
-  return std::make_shared<FacetSums>(std::make_shared<const FacetTable>(table_->every(stride_for(table_->rows(), rows_of_search))));
+std::shared_ptr<RowSums> FacetSums::few(int threads) const {
+  return std::make_shared<FacetSums>(
+      std::make_shared<const FacetTable>(table_->every(stride_for(table_->rows(), rows_of_search), threads)));
 }
 
 void LargeTable::weigh(const std::vector<VarianceModel>& variance, const std::vector<std::vector<double>>& linear,
@@ -89,8 +96,8 @@ std::optional<LargeTable> large_table(const Observations& observations, const Mo
   out.table = FacetTable::of(observations, kernel, threads);
   if (!out.table || out.table->rows() < many_samples) return std::nullopt;
   const FacetTable& table = *out.table;
-  out.terms = rows_of(observations, kernel, table, table.every(stride_for(table.rows(), rows_kept)), true);
-  out.part = rows_of(observations, kernel, table, table.every(stride_for(table.rows(), rows_of_part)), false);
+  out.terms = rows_of(observations, kernel, table, table.every(stride_for(table.rows(), rows_kept), threads), true, threads);
+  out.part = rows_of(observations, kernel, table, table.every(stride_for(table.rows(), rows_of_part), threads), false, threads);
   out.terms.sums = std::make_shared<FacetSums>(out.table);
   return out;
 }

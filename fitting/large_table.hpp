@@ -18,7 +18,7 @@ class FacetSums final : public RowSums {
   explicit FacetSums(std::shared_ptr<const FacetTable> table) : table_(std::move(table)) {}
   std::vector<Matrix> triangles(double alpha, int threads) const override;
   double nearest(double alpha) const override { return static_cast<float>(alpha); }
-  std::shared_ptr<RowSums> few() const override;
+  std::shared_ptr<RowSums> few(int threads) const override;
   std::size_t rows() const noexcept override { return table_->rows(); }
 
  private:

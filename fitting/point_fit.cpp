@@ -9,6 +9,7 @@ namespace gonio::fitting {
 namespace {
 
 constexpr std::size_t rows_for_search = 2048;
+constexpr double coarse = 1e-4;   // on the axis: a part of the rows says no more
 constexpr double settled = 1e-6;  // decrease of the cost in variances of one reading: a thousandth of a standard deviation
 constexpr std::size_t rows_at_once = 1024;
 
@@ -23,7 +24,9 @@ std::optional<std::vector<std::vector<double>>> PointFit::operator()(bool global
   if (search) {
     const Terms few = thinned(terms_, rows_for_search);
     Profile of_few(few, options_.limits);
-    minima_ = search_globally(of_few, space_, options_.threads).minima;
+    const bool part = few.rows() < terms_.rows();
+    minima_ = part && space_.dimension() == 1 ? search_axis(of_few, space_, options_.threads, coarse).minima
+                                              : search_globally(of_few, space_, options_.threads).minima;
     if (minima_.empty()) return std::nullopt;
   } else if (space_.dimension() > 0) {
     DescentOptions descent;

@@ -19,7 +19,7 @@ class RowSums {
   /// The value next to `parameter` that the sums can be had at exactly.
   virtual double nearest(double parameter) const = 0;
   /// The sums of a part of the rows, for a search.
-  virtual std::shared_ptr<RowSums> few() const = 0;
+  virtual std::shared_ptr<RowSums> few(int threads) const = 0;
   virtual std::size_t rows() const noexcept = 0;
 };
 

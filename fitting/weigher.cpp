@@ -197,6 +197,7 @@ class Weigher {
   }
 
   bool from_repeats() {
+    if (options_.repeats.empty()) return false;
     std::vector<std::size_t> row_of;
     for (std::size_t row = 0; row < terms_.sample.size(); ++row) {
       if (terms_.sample[row] >= row_of.size()) row_of.resize(terms_.sample[row] + 1, terms_.rows());

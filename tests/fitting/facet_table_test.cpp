@@ -109,7 +109,7 @@ TEST_CASE("every so many samples are a table of their own") {
   const auto data = scattered(1000);
   const auto table = FacetTable::of(*observe(data), model_kernel("ggx"), 1);
   REQUIRE(table);
-  const FacetTable some = table->every(7);
+  const FacetTable some = table->every(7, 2);
   CHECK(some.rows() == 143);
   for (std::size_t k = 0; k < some.samples(0).size(); ++k)
     CHECK(some.values(0, 1)[k] == static_cast<float>(data->f[1][some.samples(0)[k]]));
