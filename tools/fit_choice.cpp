@@ -162,6 +162,9 @@ std::vector<std::string> choice_lines(const fitting::ModelChoice& choice) {
                                 cell(above_least(choice, &Candidate::bic, c), "{:+.1f}"), c.free_parameters, c.adequate ? "  adequate" : "",
                                 c.reason.empty() ? "" : "  (" + c.reason + ")"));
   }
+  lines.push_back(
+      "(rms errors of samples left out; score: geometric mean of the three, each over the least; AICc, BIC: above the least; k: free "
+      "parameters)");
   std::size_t hints = 0;
   for (const Candidate& c : choice.candidates)
     if (!c.hint.empty() && hints++ < most_hints) lines.push_back(c.model + ": " + c.hint);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of models in docs/models.md and the list in the README say what the code says.
+// The table of models in docs/models.md says what the code says, and the README leads to it.
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -61,10 +61,4 @@ TEST_CASE("docs/models.md has a row for every model with its parameters, propert
   }
 }
 
-TEST_CASE("the README names every model") {
-  const std::string readme = text_of("README.md");
-  for (const ModelInfo& info : model_infos()) {
-    INFO(info.name);
-    CHECK(readme.find("`" + info.name + "`") != std::string::npos);
-  }
-}
+TEST_CASE("the README leads to the table of models") { CHECK(text_of("README.md").find("(docs/models.md)") != std::string::npos); }
