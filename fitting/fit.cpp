@@ -14,7 +14,6 @@
 #include "fitting/fit_checks.hpp"
 #include "fitting/fit_errors.hpp"
 #include "fitting/large_table.hpp"
-#include "fitting/point_fit.hpp"
 #include "fitting/solution.hpp"
 #include "fitting/sufficient_statistics.hpp"
 #include "fitting/weigh_and_convolve.hpp"
@@ -298,21 +297,6 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
   return result;
 }
 
-/// Weights of a large table from what a small part of it shows; false if that part holds wrong readings, so that every sample has to be
-/// looked at.
-bool weigh_by_part(LargeTable& large, WeigherOptions weigher, const SolveOptions& how, Weighting& weighting) {
-  weigher.free_parameters = free_parameters(how);
-  PointFit point_fit(large.part, how);
-  weighting = weigh(large.part, weigher, [&](bool global) { return point_fit(global); });
-  if (weighting.robust != Robust::none) {
-    weighting = {};
-    return false;
-  }
-  if (!weighting.variance.empty() && point_fit.last())
-    large.weigh(weighting.variance, point_fit.last()->point.linear(), point_fit.last()->point.theta, how.threads);
-  return true;
-}
-
 }  // namespace
 
 double FitLikelihood::aicc() const noexcept {
@@ -341,7 +325,11 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   const bool by_measure = options.weights == Weights::solid_angle;
   if (!options.per_channel && !by_measure) large = large_table(observations, kernel, minimised, options.threads);
   stages.collapse_s = lap();
-  if (large && !weigh_by_part(*large, weigher, solve_options(options, kernel, observations.channels().size()), judged)) large.reset();
+  if (large) {
+    const SolveOptions how = solve_options(options, kernel, observations.channels().size());
+    weigher.free_parameters = free_parameters(how);
+    if (!weigh_by_part(*large, weigher, how, judged)) large.reset();
+  }
   stages.weights_s = lap();
   std::optional<Terms> bins;
   if (!large && !by_measure)

@@ -63,4 +63,16 @@ Weighed weigh_and_convolve(Terms& terms, const SolveOptions& how, const WeigherO
   }
 }
 
+bool weigh_by_part(LargeTable& large, const WeigherOptions& weigher, const SolveOptions& how, Weighting& weighting) {
+  PointFit point_fit(large.part, how);
+  weighting = weigh(large.part, weigher, [&](bool global) { return point_fit(global); });
+  if (weighting.robust != Robust::none) {
+    weighting = {};
+    return false;
+  }
+  if (!weighting.variance.empty() && point_fit.last())
+    large.weigh(weighting.variance, point_fit.last()->point.linear(), point_fit.last()->point.theta, how.threads);
+  return true;
+}
+
 }  // namespace gonio::fitting

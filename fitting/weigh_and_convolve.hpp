@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fitting/convolution.hpp"
+#include "fitting/large_table.hpp"
 #include "fitting/solution.hpp"
 #include "fitting/weigher.hpp"
 
@@ -20,5 +21,9 @@ struct Weighed {
 /// `observations`: null if the terms come from sums, which have no apertures.
 Weighed weigh_and_convolve(Terms& terms, const SolveOptions& how, const WeigherOptions& weigher, const Observations* observations,
                            const FitOptions& options, ApertureEffect& effect);
+
+/// Weights of a large table from what its part shows, in `weighting`; false if the part holds wrong readings, so that every sample has to
+/// be looked at.
+bool weigh_by_part(LargeTable& large, const WeigherOptions& weigher, const SolveOptions& how, Weighting& weighting);
 
 }  // namespace gonio::fitting
