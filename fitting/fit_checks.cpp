@@ -76,8 +76,9 @@ Check at_bound(const FitResult& result) {
   for (const FittedParameter& parameter : result.parameters) {
     if (parameter.kind == IntervalKind::fixed) continue;
     if (parameter.value > parameter.lower && parameter.value < parameter.upper) continue;
-    names += fmt::format("{}{}{}", names.empty() ? "" : ", ", parameter.name,
-                         parameter.channel ? fmt::format(" of {}", result.channels[*parameter.channel].name) : "");
+    names +=
+        fmt::format("{}{}{}", names.empty() ? "" : ", ", parameter.name,
+                    parameter.channel && result.channels.size() > 1 ? fmt::format(" of {}", result.channels[*parameter.channel].name) : "");
   }
   check.verdict = names.empty() ? Verdict::pass : Verdict::warn;
   check.detail =

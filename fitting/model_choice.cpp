@@ -91,7 +91,7 @@ std::string unidentified(const FitResult& fit) {
   std::string names;
   for (const FittedParameter& p : fit.parameters) {
     if (p.kind != IntervalKind::unidentified) continue;
-    names += (names.empty() ? "" : ", ") + p.name + (p.channel ? " of " + fit.channels[*p.channel].name : "");
+    names += (names.empty() ? "" : ", ") + p.name + (p.channel && fit.channels.size() > 1 ? " of " + fit.channels[*p.channel].name : "");
   }
   return names.empty() ? "" : "the data do not determine " + names;
 }

@@ -142,6 +142,7 @@ std::string weighting_line(const fitting::FitResult& result) {
   const fitting::Weighting& weighting = result.weighting;
   std::string text;
   if (weighting.source != fitting::WeightSource::none) text = fmt::format("  weights from: {}", name(weighting.source));
+  if (weighting.source == fitting::WeightSource::solid_angle) text += ", which is not noise: do not take the intervals for uncertainties";
   if (weighting.n_outliers > 0)
     text += fmt::format("{}{} outliers ({}{}{})", text.empty() ? "  " : "; ", weighting.n_outliers, name(weighting.robust),
                         weighting.reason.empty() ? "" : ": ", weighting.reason);
