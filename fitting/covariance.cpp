@@ -15,7 +15,8 @@ constexpr double part_in_null_space = 0.1;
 /// The joint Jacobian from the triangles of the channels, columns of unit length, zero columns left out; its decomposition.
 struct Joint {
   std::vector<std::size_t> place;  ///< of every column
-  Eigen::VectorXd length, y;
+  Eigen::VectorXd length;
+  Eigen::MatrixXd y;
   Eigen::JacobiSVD<Eigen::MatrixXd> svd;
   Eigen::Index rank = 0;
 
@@ -23,7 +24,7 @@ struct Joint {
     std::size_t rows = 0, columns = 0;
     for (const auto& own : at.columns) rows += own.size() + at.free, columns += own.size();
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns + at.free));
-    y = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows));
+    y = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(at.right));
     std::vector<std::size_t> all_places;
     Eigen::Index row = 0, column = 0;
     for (std::size_t c = 0; c < at.r.size(); ++c) {
@@ -32,7 +33,7 @@ struct Joint {
         const Eigen::Index to = row + static_cast<Eigen::Index>(i);
         for (std::size_t k = 0; k < n; ++k) all(to, column + static_cast<Eigen::Index>(k)) = at.r[c](i, k);
         for (std::size_t a = 0; a < at.free; ++a) all(to, static_cast<Eigen::Index>(columns + a)) = at.r[c](i, n + a);
-        y[to] = at.r[c](i, n + at.free);
+        for (std::size_t k = 0; k < at.right; ++k) y(to, static_cast<Eigen::Index>(k)) = at.r[c](i, n + at.free + k);
       }
       for (const std::size_t k : at.columns[c]) all_places.push_back(places.of_linear(c, k));
       row += static_cast<Eigen::Index>(n + at.free), column += static_cast<Eigen::Index>(n);
@@ -104,17 +105,19 @@ std::optional<double> variance_of(const Linearisation& at, const ParameterPlaces
   return scale * variance;
 }
 
-std::vector<double> response(const Linearisation& at, const ParameterPlaces& places, const SearchSpace& space) {
+std::vector<std::vector<double>> responses(const Linearisation& at, const ParameterPlaces& places, const SearchSpace& space) {
   const Joint joint(at, places, space);
-  std::vector<double> out(places.size(), 0.0);
+  std::vector<std::vector<double>> out(at.right, std::vector<double>(places.size(), 0.0));
   const auto count = static_cast<Eigen::Index>(joint.place.size());
-  for (Eigen::Index a = 0; a < count; ++a) {
-    if (!joint.determined(a)) continue;
-    double sum = 0;
-    for (Eigen::Index i = 0; i < joint.rank; ++i)
-      sum += joint.svd.matrixV()(a, i) * joint.svd.matrixU().col(i).dot(joint.y) / joint.svd.singularValues()[i];
-    out[joint.place[static_cast<std::size_t>(a)]] = sum / joint.length[a];
-  }
+  for (std::size_t k = 0; k < at.right; ++k)
+    for (Eigen::Index a = 0; a < count; ++a) {
+      if (!joint.determined(a)) continue;
+      double sum = 0;
+      for (Eigen::Index i = 0; i < joint.rank; ++i)
+        sum += joint.svd.matrixV()(a, i) * joint.svd.matrixU().col(i).dot(joint.y.col(static_cast<Eigen::Index>(k))) /
+               joint.svd.singularValues()[i];
+      out[k][joint.place[static_cast<std::size_t>(a)]] = sum / joint.length[a];
+    }
   return out;
 }
 

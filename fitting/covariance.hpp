@@ -28,7 +28,7 @@ Matrix covariance(const Linearisation& at, const ParameterPlaces& places, const 
 std::optional<double> variance_of(const Linearisation& at, const ParameterPlaces& places, const SearchSpace& space, double scale,
                                   const std::vector<double>& gradient);
 
-/// How far one standard uncertainty of the component at whose shift `at` was made moves every parameter; 0 for those without covariance.
-std::vector<double> response(const Linearisation& at, const ParameterPlaces& places, const SearchSpace& space);
+/// How far every right-hand side of `at` moves every parameter, [right-hand side][parameter]; 0 for those without covariance.
+std::vector<std::vector<double>> responses(const Linearisation& at, const ParameterPlaces& places, const SearchSpace& space);
 
 }  // namespace gonio::fitting

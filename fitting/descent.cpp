@@ -24,7 +24,7 @@ struct Step {
 
 Step step_at(const Profile& profile, const SearchSpace& space, const Minimum& at, const DescentOptions& options) {
   const Linearisation linearised =
-      linearise(profile.terms(), space, profile.limits(), at.point.linear(), at.point.theta, nullptr, options.threads);
+      linearise(profile.terms(), space, profile.limits(), at.point.linear(), at.point.theta, {}, options.threads);
   std::vector<double> normal, gradient;
   linearised.reduced(normal, gradient);
   const std::size_t d = space.dimension();

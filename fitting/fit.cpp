@@ -14,6 +14,7 @@
 #include "fitting/fit_checks.hpp"
 #include "fitting/fit_errors.hpp"
 #include "fitting/large_table.hpp"
+#include "fitting/shared_errors.hpp"
 #include "fitting/solution.hpp"
 #include "fitting/sufficient_statistics.hpp"
 #include "fitting/weigh_and_convolve.hpp"
@@ -83,6 +84,15 @@ SolveOptions solve_options(const FitOptions& options, const ModelKernel& kernel,
   out.confidence = options.confidence;
   out.threads = options.threads;
   return out;
+}
+
+/// Whether the caller holds a linear parameter at a value other than 0.
+bool holds_linear(const FitOptions& options, const ModelInfo& info) {
+  const auto held = [&](const Parameter& parameter) {
+    const auto found = options.fixed.find(std::string(parameter.name));
+    return found != options.fixed.end() && found->second != 0;
+  };
+  return std::any_of(info.parameters.begin(), info.parameters.begin() + static_cast<std::ptrdiff_t>(info.linear_count), held);
 }
 
 /// What is asked of the weights, with the defaults of FitOptions filled in.
@@ -262,6 +272,8 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
     result.reason = "no sample can be used: all are masked, unknown or outside the domain of the metric";
     return result;
   }
+  const SharedErrors shared = shared_errors(correlated, holds_linear(options, *kernel.info));
+  result.u_scale = shared.u_scale;
   std::vector<Solution> solutions;
   const auto solved = [&](Terms& these, std::size_t first) {
     Laps lap;
@@ -274,7 +286,7 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
     }
     means.push_back(these.mean.renumbered(these.sample));
     result.stages.weights_s += lap();
-    Solution solution = solve(these, how, correlated, std::move(weighed.minima));
+    Solution solution = solve(these, how, changes_by(these, shared.shape), std::move(weighed.minima));
     result.stages.scan_s += solution.scan_s;
     result.stages.intervals_s += solution.intervals_s;
     return solution;

@@ -118,6 +118,10 @@ struct FitResult {
   double confidence = 0.95;  ///< of the intervals
   Channels channels;
   std::vector<FittedParameter> parameters;  ///< linear ones channel by channel, then nonlinear ones
+  /// Relative standard uncertainty of the scale that all samples have in common (k = 1), of which no fit can know anything; none where
+  /// the data state none. **Not in** the intervals and sigmas of `parameters` and `determined`: it moves every linear parameter by the
+  /// same part of itself, and no other. Add in squares.
+  std::optional<double> u_scale;
   /// Values per channel in table order, ready for AnalyticBrdf.
   std::vector<std::vector<double>> values;
   FitErrors errors;

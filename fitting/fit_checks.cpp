@@ -57,7 +57,8 @@ Check energy_bound(const FitResult& result, const ModelKernel& kernel, const std
   check.threshold = 1;
   check.n = result.values.size();
   check.effect = worst;
-  check.u_effect = most.variance > 0 ? std::optional(std::sqrt(most.variance)) : std::nullopt;
+  const double variance = most.variance + std::pow(worst * result.u_scale.value_or(0), 2);
+  check.u_effect = variance > 0 ? std::optional(std::sqrt(variance)) : std::nullopt;
   const double u = check.u_effect.value_or(0), z = u > 0 ? (worst - 1) / u : (worst > 1 ? 1e9 : -1e9);
   check.statistic = u > 0 ? std::optional(z) : std::nullopt;
   check.p_value = u > 0 ? std::optional(normal_upper_tail(z)) : std::nullopt;

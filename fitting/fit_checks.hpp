@@ -9,7 +9,7 @@
 
 namespace gonio::fitting {
 
-/// energy_bound: Σ_k x_k · bound_k(s) <= 1, with the covariance of the fit. The largest channel counts.
+/// energy_bound: Σ_k x_k · bound_k(s) <= 1, with the covariance of the fit and the common scale. The largest channel counts.
 Check energy_bound(const FitResult& result, const ModelKernel& kernel, const std::vector<Matrix>& covariance, int threads);
 /// at_bound: parameters at an end of their search range.
 Check at_bound(const FitResult& result);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Profile intervals and correlated components.
+// Profile intervals, widened by the errors that samples share.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -61,7 +61,7 @@ std::vector<Reach> linearised_reach(const Solution& solution, const ParameterPla
 }  // namespace
 
 void estimate(Solution& solution, const Profile& profile, const SearchSpace& space, const Found& found, const SolveOptions& options,
-              const std::vector<CorrelatedComponent>& correlated) {
+              const std::vector<Change>& changes) {
   const Terms& terms = profile.terms();
   const ParameterPlaces places{terms.channel.size(), terms.kernel.linear, terms.kernel.nonlinear};
   double count = 0, size_of_terms = 0, log_weights = 0;
@@ -105,21 +105,19 @@ void estimate(Solution& solution, const Profile& profile, const SearchSpace& spa
                                      : -0.5 * (count * (1 + std::log(two_pi * variance)) - log_weights);
   solution.free_parameters += absolute ? 0 : 1;
 
-  const auto linearised = [&](const CorrelatedComponent* component) {
-    return linearise(terms, space, profile.limits(), solution.linear, solution.theta, component, options.threads);
+  const auto linearised = [&](std::span<const Change> by) {
+    return linearise(terms, space, profile.limits(), solution.linear, solution.theta, by, options.threads);
   };
-  const Linearisation about = linearised(nullptr);
+  const Linearisation about = linearised({});
   const Matrix own = covariance(about, places, space, scale);
   solution.covariance = own;
-  std::vector<std::vector<double>> moves;  // by one standard uncertainty of every shared component
+  const auto moves = changes.empty() ? std::vector<std::vector<double>>{} : responses(linearised(changes), places, space);
   std::vector<double> shared(places.size(), 0.0);
-  for (const CorrelatedComponent& component : correlated) {
-    moves.push_back(response(linearised(&component), places, space));
+  for (const std::vector<double>& move : moves)
     for (std::size_t a = 0; a < places.size(); ++a) {
-      shared[a] += moves.back()[a] * moves.back()[a];
-      for (std::size_t b = 0; b < places.size(); ++b) solution.covariance(a, b) += moves.back()[a] * moves.back()[b];
+      shared[a] += move[a] * move[a];
+      for (std::size_t b = 0; b < places.size(); ++b) solution.covariance(a, b) += move[a] * move[b];
     }
-  }
 
   // The profile may lie a rounding error below or above the polished cost: the lower of the two is the floor.
   double least = solution.cost;

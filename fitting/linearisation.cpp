@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fitting/linearisation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fitting/row_triangles.hpp"
@@ -21,10 +22,11 @@ void Linearisation::reduced(std::vector<double>& normal, std::vector<double>& gr
 }
 
 Linearisation linearise(const Terms& terms, const SearchSpace& space, const std::vector<LinearLimits>& limits,
-                        const std::vector<std::vector<double>>& linear, std::span<const double> theta, const CorrelatedComponent* component,
+                        const std::vector<std::vector<double>>& linear, std::span<const double> theta, std::span<const Change> changes,
                         int threads) {
   Linearisation out;
   out.free = space.dimension();
+  out.right = std::max<std::size_t>(1, changes.size());
   const std::size_t count = terms.kernel.linear, channels = terms.channel.size();
   std::vector<std::size_t> sizes;
   for (std::size_t c = 0; c < channels; ++c) {
@@ -34,7 +36,7 @@ Linearisation linearise(const Terms& terms, const SearchSpace& space, const std:
       const bool below = limits[c].upper.empty() || linear[c][k] < limits[c].upper[k];
       if (std::isnan(limits[c].held[k]) && linear[c][k] > low && below) columns.push_back(k);
     }
-    sizes.push_back(columns.size() + out.free + 1);
+    sizes.push_back(columns.size() + out.free + out.right);
     out.columns.push_back(std::move(columns));
   }
   const auto fill = [&](std::size_t begin, std::size_t end, std::vector<Matrix>& blocks) {
@@ -57,15 +59,10 @@ Linearisation linearise(const Terms& terms, const SearchSpace& space, const std:
           for (std::size_t k = 0; k < count; ++k) by += linear[c][k] * slopes[(first + k) * rows_at_once + j];
           block(j, n + a) = slope * by;
         }
-        double y = 0;
-        if (root > 0 && component) {
-          const double measured = terms.transform.inverse(data.target[row], cos_i);
-          const double sensitivity = component->sensitivity.empty() ? 1 : component->sensitivity[terms.sample[row]];
-          if (measured != 0) y = root * terms.transform.slope(measured, cos_i) * measured * sensitivity * component->u;
-        } else if (root > 0) {
-          y = root * (terms.transform.value(f, cos_i) - data.target[row]);
-        }
-        block(j, n + out.free) = std::isfinite(y) ? y : 0;
+        const std::size_t first = n + out.free;
+        const auto finite = [](double y) { return std::isfinite(y) ? y : 0; };
+        if (changes.empty()) block(j, first) = root > 0 ? finite(root * (terms.transform.value(f, cos_i) - data.target[row])) : 0;
+        for (std::size_t k = 0; k < changes.size(); ++k) block(j, first + k) = root > 0 ? finite(root * changes[k](c, row, f)) : 0;
       }
     }
   };

@@ -42,7 +42,7 @@ Matrix Solution::covariance_of(std::size_t channel) const {
   return out;
 }
 
-Solution solve(Terms& terms, const SolveOptions& options, const std::vector<CorrelatedComponent>& correlated, std::vector<Minimum> known) {
+Solution solve(Terms& terms, const SolveOptions& options, const std::vector<Change>& changes, std::vector<Minimum> known) {
   const SearchSpace space(terms.kernel, options.nonlinear, options.alike);
   Solution solution;
   Laps lap;
@@ -71,7 +71,7 @@ Solution solve(Terms& terms, const SolveOptions& options, const std::vector<Corr
     for (std::size_t k = 0; k < all.size(); ++k)
       if (k != best) solution.others.push_back(std::move(all[k]));
     solution.scan_s = lap();
-    estimate(solution, profile, space, found, options, correlated);
+    estimate(solution, profile, space, found, options, changes);
     solution.intervals_s = lap();
     return solution;
   }

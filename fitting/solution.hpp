@@ -8,6 +8,7 @@
 
 #include "fitting/fit.hpp"
 #include "fitting/global_search.hpp"
+#include "fitting/linearisation.hpp"
 
 namespace gonio::fitting {
 
@@ -49,7 +50,7 @@ struct Solution {
   std::vector<std::vector<Estimate>> linear_estimate;  ///< [channel][k]
   std::vector<Estimate> nonlinear_estimate;
   std::vector<Combination> determined;
-  /// Of all parameters, the linear ones channel by channel, then the nonlinear ones; correlated components included. A parameter without
+  /// Of all parameters, the linear ones channel by channel, then the nonlinear ones; what samples share included. A parameter without
   /// a sigma has NaN there.
   Matrix covariance;
   double scan_s = 0, intervals_s = 0;  ///< StageTimes
@@ -67,16 +68,15 @@ struct SolveOptions {
 };
 
 /// Scan, minima, polish, and three rounds of weights from the fitted values where the data allow them; then the intervals.
-/// `known`: as for search_globally.
-Solution solve(Terms& terms, const SolveOptions& options, const std::vector<CorrelatedComponent>& correlated,
-               std::vector<Minimum> known = {});
+/// `changes`: by one standard uncertainty of everything that samples share, independent of each other. `known`: as for search_globally.
+Solution solve(Terms& terms, const SolveOptions& options, const std::vector<Change>& changes, std::vector<Minimum> known = {});
 
 /// Fills the estimates of a solution (numerics D.4, D.5): profile intervals in the cost, a sigma only where both ends exist. The interval
 /// of a parameter is the hull of its values over all sets of parameters with a cost of at most the least cost plus
 ///   budget = q² where the data carry u (q of the normal distribution), q² · cost/dof of Student's t where not. With weights from the
 ///   scatter of the data themselves q², times χ²/dof if χ² says that the model misses more than that scatter (the ratio of Birge 1932).
-/// Correlated components widen both ends and sigma in squares by their linearised effect on the parameter.
+/// Every one of the `changes` widens both ends and sigma in squares by its linearised effect on the parameter.
 void estimate(Solution& solution, const Profile& profile, const SearchSpace& space, const Found& found, const SolveOptions& options,
-              const std::vector<CorrelatedComponent>& correlated);
+              const std::vector<Change>& changes);
 
 }  // namespace gonio::fitting

@@ -21,7 +21,7 @@ constexpr int most_moves = 3;
 
 /// The standard uncertainty on the axis, from the rows linearised about a point.
 double standard_uncertainty(const Profile& profile, const SearchSpace& space, const ProfilePoint& at, double values, int threads) {
-  const Linearisation about = linearise(profile.terms(), space, profile.limits(), at.linear(), at.theta, nullptr, threads);
+  const Linearisation about = linearise(profile.terms(), space, profile.limits(), at.linear(), at.theta, {}, threads);
   double cost = 0;
   for (std::size_t c = 0; c < about.r.size(); ++c) {
     const auto residual = about.r[c].column(about.r[c].columns() - 1);

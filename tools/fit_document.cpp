@@ -166,6 +166,7 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
   document.set("confidence", result.confidence);
   if (!options.is_null()) document.set("options", std::move(options));
   document.set("parameters", parameters_document(result));
+  document.set("u_scale", or_null(result.u_scale));
   document.set("correlation", correlation_document(result.correlation));
   document.set("determined", determined_document(result));
   if (result.likelihood.n > 0) document.set("likelihood", likelihood_document(result.likelihood));

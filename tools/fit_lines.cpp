@@ -157,6 +157,9 @@ std::vector<std::string> fit_lines(const fitting::FitResult& result, const Maske
                               result.reason.empty() ? "" : " (" + result.reason + ")", result.n_observations,
                               result.channels.size() > 1 ? fmt::format(", {} channels", result.channels.size()) : ""));
   for (std::string& line : parameter_lines(result)) lines.push_back(std::move(line));
+  if (result.u_scale)
+    lines.push_back(fmt::format("  common scale of all samples ± {:.3g} % (k = 1): not in the intervals of the linear parameters",
+                                100 * *result.u_scale));
   std::string errors;
   for (const auto& [metric, error] : {std::pair{"linear", result.errors.linear},
                                       {"linear-cos", result.errors.linear_cos},

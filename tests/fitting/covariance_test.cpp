@@ -29,7 +29,7 @@ Setting setting(double step_deg) {
   Terms terms = make_terms(*observe(readings(lobe("blinn-phong", .2, .3, 1e6), angles, {1e-3, 0, 0}, 1)), model_kernel("blinn-phong"),
                            Metric::linear, 1);
   SearchSpace space(terms.kernel, {{none, none, none}}, {true});
-  Linearisation at = linearise(terms, space, {{{none, none}, {}, {}}}, {{.2, .3}}, std::vector<double>{1e6}, nullptr, 1);
+  Linearisation at = linearise(terms, space, {{{none, none}, {}, {}}}, {{.2, .3}}, std::vector<double>{1e6}, {}, 1);
   return {std::move(terms), std::move(space), std::move(at)};
 }
 
@@ -55,10 +55,10 @@ TEST_CASE("a lobe seen on its flank has every sigma, and shared errors move what
     for (std::size_t b = 0; b < 3; ++b) CHECK(std::abs(found(a, b)) <= std::sqrt(found(a, a) * found(b, b)) * (1 + 1e-9));
   }
   const double none = std::nan("");
-  const CorrelatedComponent scale{"scale", 0.02, {}};
+  const Change scale = [](std::size_t, std::size_t, double fitted) { return .02 * fitted; };
   const Linearisation shifted =
-      linearise(fine.terms, fine.space, {{{none, none}, {}, {}}}, {{.2, .3}}, std::vector<double>{1e6}, &scale, 1);
-  const std::vector<double> move = response(shifted, fine.places, fine.space);
+      linearise(fine.terms, fine.space, {{{none, none}, {}, {}}}, {{.2, .3}}, std::vector<double>{1e6}, std::span(&scale, 1), 1);
+  const std::vector<double> move = responses(shifted, fine.places, fine.space).front();
   CHECK(std::abs(move[0]) == Approx(.02 * .2).epsilon(0.05));
   CHECK(std::abs(move[1]) == Approx(.02 * .3).epsilon(0.05));
   CHECK(std::abs(move[2]) < 1e6 * 2e-3);
