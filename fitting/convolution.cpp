@@ -158,9 +158,10 @@ std::vector<std::size_t> rows_that_count(const std::vector<double>& square) {
 
 }  // namespace
 
-void MeanRows::append(std::size_t number, std::span<const LobeGeometry> nodes, std::span<const double> weights) {
+void MeanRows::append(std::size_t number, const ApertureRule& by, std::span<const LobeGeometry> nodes, std::span<const double> weights) {
   if (first.empty()) first.push_back(0);
   row.push_back(number);
+  rule.push_back(by);
   geometry.insert(geometry.end(), nodes.begin(), nodes.end());
   weight.insert(weight.end(), weights.begin(), weights.end());
   first.push_back(geometry.size());
@@ -179,7 +180,7 @@ MeanRows MeanRows::of(std::span<const std::size_t> rows) const {
     if (found == row.end() || *found != rows[j]) continue;
     const auto k = static_cast<std::size_t>(found - row.begin());
     const std::size_t size = first[k + 1] - first[k];
-    out.append(j, std::span(geometry).subspan(first[k], size), std::span(weight).subspan(first[k], size));
+    out.append(j, rule[k], std::span(geometry).subspan(first[k], size), std::span(weight).subspan(first[k], size));
   }
   return out;
 }
@@ -225,8 +226,9 @@ ApertureEffect convolve(Terms& terms, const Observations& observations, const st
   std::vector<double> part;
   for (const std::size_t row : rows) {
     geometry.clear(), part.clear();
-    aperture_nodes(apertures.angles[row], rule_of(apertures.half[row], rule.order), geometry, part);
-    if (!geometry.empty()) terms.mean.append(row, geometry, part);
+    const ApertureRule own = rule_of(apertures.half[row], rule.order);
+    aperture_nodes(apertures.angles[row], own, geometry, part);
+    if (!geometry.empty()) terms.mean.append(row, own, geometry, part);
   }
   effect.n_samples = terms.mean.row.size();
   effect.reason = fmt::format(

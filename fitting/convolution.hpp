@@ -17,12 +17,13 @@ struct Terms;
 /// Rows that stand for the mean of the model over several geometries.
 struct MeanRows {
   std::vector<std::size_t> row;        ///< ascending
+  std::vector<ApertureRule> rule;      ///< of every one of them
   std::vector<std::size_t> first;      ///< nodes [first[k], first[k + 1]) belong to row[k]; one more than rows, or empty
   std::vector<LobeGeometry> geometry;  ///< of the nodes
   std::vector<double> weight;          ///< of the nodes; 1 in all for every row
 
   bool empty() const noexcept { return row.empty(); }
-  void append(std::size_t number, std::span<const LobeGeometry> nodes, std::span<const double> weights);
+  void append(std::size_t number, const ApertureRule& by, std::span<const LobeGeometry> nodes, std::span<const double> weights);
   /// The same with sample[row] for every row.
   MeanRows renumbered(std::span<const std::size_t> sample) const;
   /// Row j of the result is row rows[j] of these where that is a mean.

@@ -11,9 +11,12 @@
 
 #include "brdf/error.hpp"
 #include "fitting/angle_bins.hpp"
+#include "fitting/corrected.hpp"
 #include "fitting/fit_checks.hpp"
 #include "fitting/fit_errors.hpp"
+#include "fitting/fit_setup.hpp"
 #include "fitting/large_table.hpp"
+#include "fitting/nuisance.hpp"
 #include "fitting/shared_errors.hpp"
 #include "fitting/solution.hpp"
 #include "fitting/sufficient_statistics.hpp"
@@ -21,97 +24,6 @@
 
 namespace gonio::fitting {
 namespace {
-
-void require_usable(const FitOptions& options, const ModelInfo& info) {
-  std::vector<Fault> faults;
-  std::string known;
-  for (const Parameter& parameter : info.parameters) known += (known.empty() ? "" : ", ") + std::string(parameter.name);
-  const auto find = [&](const std::string& what, const std::string& name) {
-    const auto found = std::find_if(info.parameters.begin(), info.parameters.end(), [&](const Parameter& p) { return p.name == name; });
-    if (found != info.parameters.end()) return &*found;
-    faults.push_back({what, "'" + name + "'", "one of " + known});
-    return static_cast<const Parameter*>(nullptr);
-  };
-  for (const auto& [name, value] : options.fixed)
-    if (const Parameter* parameter = find("fixed parameter", name); parameter && !(value >= parameter->lower && value <= parameter->upper))
-      faults.push_back({"fixed parameter " + name, std::to_string(value), "a number within the bounds of the model"});
-  for (const auto& [name, bounds] : options.bounds) {
-    const Parameter* parameter = find("bounds", name);
-    if (!parameter) continue;
-    const std::string found = std::to_string(bounds.low) + " to " + std::to_string(bounds.high);
-    if (options.fixed.count(name)) faults.push_back({"bounds of " + name, found, "none, or the parameter not fixed"});
-    if (!(bounds.low < bounds.high && bounds.low >= parameter->lower && bounds.high <= parameter->upper))
-      faults.push_back({"bounds of " + name, found, "a range within the bounds of the model"});
-  }
-  if (!(options.confidence > 0 && options.confidence < 1))
-    faults.push_back({"confidence", std::to_string(options.confidence), "a number between 0 and 1"});
-  if (options.weights == Weights::solid_angle && options.robust.value_or(Robust::none) != Robust::none)
-    faults.push_back({"robust", name(*options.robust), "none: solid angles say nothing of how wrong a reading may be"});
-  if (!faults.empty()) throw Error(ErrorKind::usage, "the fit of model '" + options.model + "' cannot be set up", faults);
-}
-
-SolveOptions solve_options(const FitOptions& options, const ModelKernel& kernel, std::size_t channels) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
-  const auto& parameters = kernel.info->parameters;
-  const auto wanted = [&](const Parameter& parameter) {
-    const auto held = options.fixed.find(std::string(parameter.name));
-    const auto bounds = options.bounds.find(std::string(parameter.name));
-    const bool bounded = bounds != options.bounds.end();
-    const double at_rest = parameter.held && !bounded ? parameter.example : none;
-    return Wanted{held == options.fixed.end() ? at_rest : held->second, bounded ? bounds->second.low : none,
-                  bounded ? bounds->second.high : none};
-  };
-  SolveOptions out;
-  LinearLimits limits;
-  std::vector<bool> free;
-  bool bounded = false;
-  for (std::size_t k = 0; k < kernel.linear; ++k) {
-    const Wanted own = wanted(parameters[k]);
-    limits.held.push_back(own.held);
-    limits.lower.push_back(std::isnan(own.lower) ? 0 : own.lower);
-    limits.upper.push_back(std::isnan(own.upper) ? infinity : own.upper);
-    bounded = bounded || !std::isnan(own.lower);
-    free.push_back(std::isnan(own.held) && std::isnan(own.lower));
-  }
-  if (!bounded) limits.lower.clear(), limits.upper.clear();
-  out.limits.assign(channels, limits);
-  for (std::size_t j = 0; j < kernel.nonlinear; ++j) out.nonlinear.push_back(wanted(parameters[kernel.linear + j]));
-  for (const ModelTerm& term : kernel.info->terms) {
-    const std::size_t lobe = term.linear + (term.first_basis == 0 ? 1 : 0), end = term.linear + term.model->linear_count - term.first_basis;
-    out.alike.push_back(std::all_of(free.begin() + static_cast<std::ptrdiff_t>(std::min(lobe, end)),
-                                    free.begin() + static_cast<std::ptrdiff_t>(end), [](bool is_free) { return is_free; }));
-  }
-  out.confidence = options.confidence;
-  out.threads = options.threads;
-  return out;
-}
-
-/// Whether the caller holds a linear parameter at a value other than 0.
-bool holds_linear(const FitOptions& options, const ModelInfo& info) {
-  const auto held = [&](const Parameter& parameter) {
-    const auto found = options.fixed.find(std::string(parameter.name));
-    return found != options.fixed.end() && found->second != 0;
-  };
-  return std::any_of(info.parameters.begin(), info.parameters.begin() + static_cast<std::ptrdiff_t>(info.linear_count), held);
-}
-
-/// What is asked of the weights, with the defaults of FitOptions filled in.
-WeigherOptions weigher_options(const FitOptions& options) {
-  const bool by_default = options.weights == Weights::automatic && !options.metric;
-  WeigherOptions out;
-  out.threads = options.threads;
-  out.estimate_variance = options.weights == Weights::variance || by_default;
-  out.robust = options.robust.value_or(by_default ? Robust::automatic : Robust::none);
-  return out;
-}
-
-std::size_t free_parameters(const SolveOptions& options) {
-  std::size_t out = 0;
-  for (const LinearLimits& channel : options.limits)
-    for (const double held : channel.held) out += std::isnan(held);
-  for (const Wanted& wanted : options.nonlinear) out += std::isnan(wanted.held);
-  return out;
-}
 
 /// Adds what was found for channels from `first` on.
 void add_weighting(Weighting& to, Weighting from, std::size_t first) {
@@ -273,20 +185,34 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
     return result;
   }
   const SharedErrors shared = shared_errors(correlated, holds_linear(options, *kernel.info));
+  require_nuisance_possible(options, observations, terms.channel.size(), !shared.shape.empty());
   result.u_scale = shared.u_scale;
   std::vector<Solution> solutions;
   const auto solved = [&](Terms& these, std::size_t first) {
     Laps lap;
-    const SolveOptions how = solve_options(options, kernel, these.channel.size());
+    SolveOptions how = solve_options(options, kernel, these.channel.size());
     weigher.free_parameters = free_parameters(how);
-    Weighed weighed;
-    if (!these.sums) {
-      weighed = weigh_and_convolve(these, how, weigher, observations, options, result.aperture);
-      add_weighting(result.weighting, std::move(weighed.weighting), first);
+    std::vector<Change> changes;
+    std::vector<Minimum> known;
+    if (options.nuisance.any()) {
+      NuisanceFit nuisance = fit_nuisance(these, *observations, how, options.nuisance, shared.shape, [&](const Observations& seen) {
+        return weigh_and_convolve(these, how, weigher, &seen, options, result.aperture).weighting;
+      });
+      add_weighting(result.weighting, std::move(nuisance.weighting), first);
+      result.nuisance = std::move(nuisance.parameters);
+      how.nuisance = nuisance.free, how.nuisance_with_prior = nuisance.with_prior;
+      changes = std::move(nuisance.changes);
+    } else {
+      if (!these.sums) {
+        Weighed weighed = weigh_and_convolve(these, how, weigher, observations, options, result.aperture);
+        add_weighting(result.weighting, std::move(weighed.weighting), first);
+        known = std::move(weighed.minima);
+      }
+      changes = changes_by(these, shared.shape);
     }
     means.push_back(these.mean.renumbered(these.sample));
     result.stages.weights_s += lap();
-    Solution solution = solve(these, how, changes_by(these, shared.shape), std::move(weighed.minima));
+    Solution solution = solve(these, how, changes, std::move(known));
     result.stages.scan_s += solution.scan_s;
     result.stages.intervals_s += solution.intervals_s;
     return solution;
@@ -334,8 +260,8 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   Weighting judged;
   StageTimes stages;
   Laps lap;
-  const bool by_measure = options.weights == Weights::solid_angle;
-  if (!options.per_channel && !by_measure) large = large_table(observations, kernel, minimised, options.threads);
+  const bool by_measure = options.weights == Weights::solid_angle, as_rows = by_measure || options.nuisance.any();
+  if (!options.per_channel && !as_rows) large = large_table(observations, kernel, minimised, options.threads);
   stages.collapse_s = lap();
   if (large) {
     const SolveOptions how = solve_options(options, kernel, observations.channels().size());
@@ -344,8 +270,7 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   }
   stages.weights_s = lap();
   std::optional<Terms> bins;
-  if (!large && !by_measure)
-    bins = binned_terms(observations, kernel, minimised, options.ignore_apertures, weigher.robust, options.threads);
+  if (!large && !as_rows) bins = binned_terms(observations, kernel, minimised, options.ignore_apertures, weigher.robust, options.threads);
   Terms terms = large  ? std::move(large->terms)
                 : bins ? std::move(*bins)
                        : make_terms(observations, kernel, minimised, options.threads, weigher.robust, options.weights);
@@ -363,7 +288,8 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   result.metric = metric;
   if (!result.values.empty()) {
     lap();
-    add_residuals(result, observations, kernel, means, options.threads);
+    const auto aligned = result.nuisance.empty() ? nullptr : corrected(observations, result.nuisance);
+    add_residuals(result, aligned ? *aligned : observations, kernel, means, options.threads);
     result.stages.errors_s = lap();
   }
   add_angles(result.weighting.outliers, observations);

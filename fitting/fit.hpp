@@ -40,6 +40,18 @@ struct Bounds {
   double low, high;
 };
 
+/// What is estimated beside the model: properties of the measurement that shift what the readings are readings of.
+struct NuisanceOptions {
+  bool tilt = false;        ///< of the sample's normal: tilt_x, tilt_y, within 5°
+  bool azimuth = false;     ///< of the sample about its normal, within 45°; only an anisotropic model sees it
+  bool components = false;  ///< correlated components of the data that change the shape, each with its stated u as the prior
+
+  bool any() const noexcept { return tilt || azimuth || components; }
+};
+/// From a list like `tilt,azimuth,components`; none if a name is not one of these or nothing is named.
+std::optional<NuisanceOptions> nuisance_named(std::string_view list);
+std::string name(const NuisanceOptions& nuisance);  ///< the list, in this order
+
 struct FitOptions {
   std::string model = "blinn-phong";
   std::optional<Metric> metric;  ///< unset: linear
@@ -49,6 +61,7 @@ struct FitOptions {
   bool per_channel = false;              ///< nonlinear parameters per channel too
   std::map<std::string, double> fixed;   ///< parameters held at a value; those the model holds of itself, at another (Parameter::held)
   std::map<std::string, Bounds> bounds;  ///< narrower than the model's, for any parameter that is not fixed
+  NuisanceOptions nuisance;              ///< of one fit of all channels to samples with directions
   double confidence = 0.95;              ///< of the profile intervals
   int threads = 2;
 };
@@ -61,6 +74,18 @@ struct FittedParameter {
   std::optional<double> low, high;  ///< ends of the interval that exist for `kind`
   IntervalKind kind = IntervalKind::unidentified;
   double lower = 0, upper = 0;  ///< bounds of the search
+};
+
+/// A nuisance parameter at its estimate. Intervals of the model's parameters hold what its uncertainty does to them.
+struct NuisanceParameter {
+  std::string name;                 ///< tilt_x, tilt_y, azimuth (Misalignment), or of a component
+  std::string unit;                 ///< `deg`; `1` for a component, which is a shift of the quantity its u is stated for
+  double value = 0;                 ///< 0 where the data do not determine it
+  std::optional<double> sigma;      ///< after the data; none where they do not determine it, or where it lies at a bound
+  std::optional<double> low, high;  ///< of its interval, from sigma
+  IntervalKind kind = IntervalKind::unidentified;
+  std::optional<double> prior;  ///< standard uncertainty before the data: u of the component; none for angles
+  double bound = 0;             ///< searched from -bound to bound
 };
 
 /// Another local minimum of the profile over the nonlinear parameters.
@@ -95,7 +120,7 @@ struct FitRows {
 /// How likely the data are under the fitted model, of normal residuals: for the choice of a model on the same data, metric and weights.
 struct FitLikelihood {
   double log_likelihood = 0;
-  std::size_t free_parameters = 0;  ///< k; of unweighted residuals their variance is one
+  std::size_t free_parameters = 0;  ///< k, nuisance parameters included; of unweighted residuals their variance is one
   std::size_t n = 0;                ///< values of all channels used
 
   /// Akaike's criterion with the correction for small samples (Hurvich and Tsai 1989); infinite without enough values.
@@ -124,7 +149,8 @@ struct FitResult {
   std::optional<double> u_scale;
   /// Values per channel in table order, ready for AnalyticBrdf.
   std::vector<std::vector<double>> values;
-  FitErrors errors;
+  std::vector<NuisanceParameter> nuisance;
+  FitErrors errors;  ///< of the readings as `corrected` gives them
   ResidualMap residuals;
   /// Of `parameters` in their order; NaN in the rows and columns of a parameter without a sigma.
   std::vector<std::vector<double>> correlation;
@@ -144,8 +170,8 @@ struct FitResult {
 /// Global in the nonlinear parameters: linear parameters are eliminated by bounded least squares, the profile over the others is scanned
 /// where the model says (global_search.hpp), every local minimum refined, and the transformed metrics polished by Ceres from each of
 /// them. Terms of the same model in a sum stand in order, the broad lobe first.
-/// Never throws for numerical outcomes: see `status`. Error(usage) for an unknown model, and for a fixed parameter or bounds it does not
-/// have.
+/// Never throws for numerical outcomes: see `status`. Error(usage) for an unknown model, for a fixed parameter or bounds it does not
+/// have. Nuisance parameters that cannot be: require_nuisance_possible.
 FitResult fit(const Observations& observations, const FitOptions& options);
 
 }  // namespace gonio::fitting

@@ -81,6 +81,8 @@ Check at_bound(const FitResult& result) {
         fmt::format("{}{}{}", names.empty() ? "" : ", ", parameter.name,
                     parameter.channel && result.channels.size() > 1 ? fmt::format(" of {}", result.channels[*parameter.channel].name) : "");
   }
+  for (const NuisanceParameter& p : result.nuisance)
+    if (std::abs(p.value) >= p.bound) names += fmt::format("{}{}", names.empty() ? "" : ", ", p.name);
   check.verdict = names.empty() ? Verdict::pass : Verdict::warn;
   check.detail =
       names.empty() ? "no parameter lies at an end of its search range" : fmt::format("at an end of the search range: {}", names);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The words of the command line and of documents for what a fit is asked and what it finds.
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -26,6 +27,31 @@ std::optional<Metric> metric_named(std::string_view text) {
   for (const auto& [value, known] : metric_names)
     if (text == known) return value;
   return std::nullopt;
+}
+
+std::optional<NuisanceOptions> nuisance_named(std::string_view list) {
+  NuisanceOptions out;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    const std::string_view word = list.substr(begin, end - begin);
+    if (word == "tilt")
+      out.tilt = true;
+    else if (word == "azimuth")
+      out.azimuth = true;
+    else if (word == "components")
+      out.components = true;
+    else
+      return std::nullopt;
+    begin = end + 1;
+  }
+  return out;
+}
+
+std::string name(const NuisanceOptions& nuisance) {
+  std::string out;
+  for (const auto& [asked, word] : {std::pair{nuisance.tilt, "tilt"}, {nuisance.azimuth, "azimuth"}, {nuisance.components, "components"}})
+    if (asked) out += (out.empty() ? "" : ",") + std::string(word);
+  return out;
 }
 
 const char* name(Status status) noexcept {

@@ -65,7 +65,7 @@ void estimate(Solution& solution, const Profile& profile, const SearchSpace& spa
   const Terms& terms = profile.terms();
   const ParameterPlaces places{terms.channel.size(), terms.kernel.linear, terms.kernel.nonlinear};
   double count = 0, size_of_terms = 0, log_weights = 0;
-  solution.free_parameters = static_cast<double>(space.dimension());
+  solution.free_parameters = static_cast<double>(space.dimension() + options.nuisance);
   for (std::size_t c = 0; c < places.channels; ++c) {
     const ChannelTerms& data = terms.channel[c];
     count += static_cast<double>(data.count);
@@ -103,7 +103,7 @@ void estimate(Solution& solution, const Profile& profile, const SearchSpace& spa
   const double two_pi = 2 * std::numbers::pi, variance = std::max(solution.cost, floor) / std::max(1.0, count);
   solution.log_likelihood = absolute ? -0.5 * (solution.cost + count * std::log(two_pi) - log_weights)
                                      : -0.5 * (count * (1 + std::log(two_pi * variance)) - log_weights);
-  solution.free_parameters += absolute ? 0 : 1;
+  solution.free_parameters += static_cast<double>(options.nuisance_with_prior) + (absolute ? 0 : 1);
 
   const auto linearised = [&](std::span<const Change> by) {
     return linearise(terms, space, profile.limits(), solution.linear, solution.theta, by, options.threads);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "brdf/error.hpp"
+#include "fitting/corrected.hpp"
 #include "fitting/subset.hpp"
 #include "fitting/threads.hpp"
 
@@ -47,6 +48,8 @@ std::shared_ptr<const Observations> copy_of(const Observations& observations, co
   bool has_u = true;
   for (std::size_t b = 0; b < observations.block_count(); ++b) has_u = has_u && observations.block(b).u.size() == out->channels.size();
   if (has_u) out->u.resize(out->channels.size());
+  const std::vector<CorrelatedComponent> stated = observations.correlated();
+  for (const CorrelatedComponent& component : stated) out->correlated.push_back({component.name, component.u, {}});
   std::vector<GonioAngles> angles;
   for (std::size_t b = 0, first = 0; b < observations.block_count(); ++b) {
     const ObservationBlock block = observations.block(b);
@@ -54,6 +57,8 @@ std::shared_ptr<const Observations> copy_of(const Observations& observations, co
     for (std::size_t k = 0; k < block.size; ++k) {
       if (!keep[first + k] || !block.valid(k)) continue;
       out->angles.push_back(angles[k]);
+      for (std::size_t e = 0; e < stated.size(); ++e)
+        if (!stated[e].sensitivity.empty()) out->correlated[e].sensitivity.push_back(stated[e].sensitivity[first + k]);
       for (std::size_t c = 0; c < out->f.size(); ++c) {
         out->f[c].push_back(block.f[c][k]);
         if (has_u) out->u[c].push_back(block.u[c][k]);
@@ -178,6 +183,8 @@ class Choice {
       if (!candidate.ranked) continue;
       candidate.free_parameters = static_cast<std::size_t>(std::count_if(candidate.fit.parameters.begin(), candidate.fit.parameters.end(),
                                                                          [](const auto& p) { return p.kind != IntervalKind::fixed; }));
+      candidate.free_parameters += static_cast<std::size_t>(std::count_if(candidate.fit.nuisance.begin(), candidate.fit.nuisance.end(),
+                                                                          [](const auto& p) { return p.kind == IntervalKind::interval; }));
       add_note(candidate.reason, unidentified(candidate.fit));
       const std::string same = same_as(candidate, {candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(m)});
       add_note(candidate.reason, same);
@@ -203,9 +210,10 @@ class Choice {
       }
       const Attempt done = attempt(*without[fold], options_, candidates_[m].model, total());
       failed[task] = done.refused;
+      Samples own;
       if (done.refused.empty())
         predictions_[m][fold] =
-            prediction_sums(samples_, model_info(candidates_[m].model), done.fit.values, static_cast<std::uint8_t>(fold));
+            prediction_sums(samples_for(done.fit, own), model_info(candidates_[m].model), done.fit.values, static_cast<std::uint8_t>(fold));
     });
     for (std::size_t task = 0; task < failed.size(); ++task) {
       Candidate& candidate = candidates_[task / folds_.count];
@@ -227,14 +235,22 @@ class Choice {
     }
   }
 
+  /// The samples as this fit's model describes them: nuisance parameters taken out, in `own`.
+  const Samples& samples_for(const FitResult& fit, Samples& own) const {
+    if (fit.nuisance.empty()) return samples_;
+    own = gather(*corrected(*part_, fit.nuisance), std::vector<std::uint8_t>(folds_.of_sample.size(), 1), folds_.of_sample);
+    return own;
+  }
+
   void add_criteria() {
     std::vector<Likelihood> likelihoods(candidates_.size());
     double inflation = std::numeric_limits<double>::infinity();
     for (std::size_t m = 0; m < candidates_.size(); ++m) {
       const Candidate& candidate = candidates_[m];
       if (!candidate.ranked) continue;
-      likelihoods[m] =
-          likelihood(samples_, model_info(candidate.model), candidate.fit.values, options_.fit.metric.value_or(Metric::linear));
+      Samples own;
+      likelihoods[m] = likelihood(samples_for(candidate.fit, own), model_info(candidate.model), candidate.fit.values,
+                                  options_.fit.metric.value_or(Metric::linear));
       const double dof = static_cast<double>(likelihoods[m].n) - static_cast<double>(candidate.free_parameters);
       if (dof >= 1) inflation = std::min(inflation, likelihoods[m].minus_two_log / dof);
     }

@@ -63,6 +63,8 @@ struct SolveOptions {
   std::vector<LinearLimits> limits;  ///< one per channel
   std::vector<Wanted> nonlinear;
   std::vector<bool> alike;  ///< SearchSpace
+  /// Nuisance parameters fitted beside these: those that take a degree of freedom, and those with a prior that gives it back.
+  std::size_t nuisance = 0, nuisance_with_prior = 0;
   double confidence = 0.95;
   int threads = 1;
 };

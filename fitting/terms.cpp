@@ -161,18 +161,26 @@ void put_means(const MeanRows& mean, std::size_t begin, std::size_t end, std::si
     }
 }
 
+/// `count` columns times the factors of rows [begin, end).
+void multiply(const std::vector<double>& factor, std::size_t begin, std::size_t end, std::size_t count, double* columns,
+              std::size_t stride) {
+  if (factor.empty()) return;
+  for (std::size_t k = 0; k < count; ++k)
+    for (std::size_t row = begin; row < end; ++row) columns[k * stride + row - begin] *= factor[row];
+}
+
 }  // namespace
 
 void Terms::basis(std::size_t begin, std::size_t end, const double* theta, double* columns, std::size_t stride) const {
   kernel.basis(std::span(geometry).subspan(begin, end - begin), theta, columns, stride);
   put_means(mean, begin, end, kernel.linear, columns, stride,
             [&](std::span<const LobeGeometry> nodes, double* values, std::size_t n) { kernel.basis(nodes, theta, values, n); });
+  multiply(factor, begin, end, kernel.linear, columns, stride);
 }
 
 void Terms::basis_and_slopes(std::size_t begin, std::size_t end, const double* theta, double* columns, double* slopes,
                              std::size_t stride) const {
   kernel.basis_and_slopes(std::span(geometry).subspan(begin, end - begin), theta, columns, slopes, stride);
-  if (mean.empty()) return;
   const std::size_t linear = kernel.linear;
   put_means(mean, begin, end, linear, columns, stride,
             [&](std::span<const LobeGeometry> nodes, double* values, std::size_t n) { kernel.basis(nodes, theta, values, n); });
@@ -181,6 +189,8 @@ void Terms::basis_and_slopes(std::size_t begin, std::size_t end, const double* t
               std::vector<double> unused(linear * n);
               kernel.basis_and_slopes(nodes, theta, unused.data(), values, n);
             });
+  multiply(factor, begin, end, linear, columns, stride);
+  multiply(factor, begin, end, linear * kernel.nonlinear, slopes, stride);
 }
 
 Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads, Robust robust, Weights weights) {

@@ -37,6 +37,7 @@ struct Terms {
   std::vector<LobeGeometry> geometry;  ///< one per row
   std::vector<std::size_t> sample;     ///< number of the sample of every row; empty if collapsed
   MeanRows mean;                       ///< rows whose f̂ is a mean over the apertures instead of the value at `geometry`
+  std::vector<double> factor;          ///< of f̂ by row: correlated components that are being estimated; empty: 1
   std::vector<ChannelTerms> channel;
   bool weighted = false;    ///< weights are 1/variance, so that the sum is a χ²
   bool pure_error = false;  ///< weights are 1/variance of the scatter of the data among themselves, whatever the model misses

@@ -51,6 +51,8 @@ Terms thinned(const Terms& terms, std::size_t most) {
     std::vector<std::size_t> chosen;
     for (std::size_t k = 0; k < taken; ++k) chosen.push_back(rows[(2 * k + 1) * rows.size() / (2 * taken)]);
     for (const std::size_t row : chosen) out.geometry.push_back(terms.geometry[row]);
+    if (!terms.factor.empty())
+      for (const std::size_t row : chosen) out.factor.push_back(terms.factor[row]);
     taken_rows.insert(taken_rows.end(), chosen.begin(), chosen.end());
     for (std::size_t c = 0; c < terms.channel.size(); ++c) {
       const ChannelTerms& all = terms.channel[c];

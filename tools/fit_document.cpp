@@ -39,6 +39,27 @@ Json determined_document(const fitting::FitResult& result) {
   return out;
 }
 
+Json nuisance_document(const fitting::FitResult& result) {
+  Json out = Json::array();
+  for (const auto& p : result.nuisance) {
+    Json interval;
+    if (p.kind == fitting::IntervalKind::interval) {
+      interval = Json::array();
+      interval.push_back(or_null(p.low));
+      interval.push_back(or_null(p.high));
+    }
+    out.push_back(Json::object({{"name", p.name},
+                                {"unit", p.unit},
+                                {"value", p.value},
+                                {"sigma", or_null(p.sigma)},
+                                {"interval", interval},
+                                {"kind", name(p.kind)},
+                                {"prior", or_null(p.prior)},
+                                {"bound", p.bound}}));
+  }
+  return out;
+}
+
 Json likelihood_document(const fitting::FitLikelihood& likelihood) {
   return Json::object({{"log_likelihood", finite_or_null(likelihood.log_likelihood)},
                        {"free_parameters", static_cast<std::int64_t>(likelihood.free_parameters)},
@@ -167,6 +188,7 @@ Json fit_document(const fitting::FitResult& result, const MaskedCounts& masked, 
   if (!options.is_null()) document.set("options", std::move(options));
   document.set("parameters", parameters_document(result));
   document.set("u_scale", or_null(result.u_scale));
+  document.set("nuisance", nuisance_document(result));
   document.set("correlation", correlation_document(result.correlation));
   document.set("determined", determined_document(result));
   if (result.likelihood.n > 0) document.set("likelihood", likelihood_document(result.likelihood));

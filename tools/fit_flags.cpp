@@ -11,6 +11,7 @@ namespace {
 
 constexpr const char* metric_list = "linear, linear-cos, log, log1p or cbrt";
 constexpr const char* weights_list = "auto, none, uncertainty, variance or solid_angle";
+constexpr const char* nuisance_list = "tilt, azimuth, components, or several of them separated by commas";
 constexpr const char* robust_list = "auto, none, huber or cauchy";
 
 /// The value that `named` finds for a flag's text; nothing if the flag was not given. Error(usage) with the `known` ones.
@@ -47,6 +48,7 @@ Json options_document(const FitFlags& flags, const fitting::FitOptions& fit, con
     out.set("bound", bounds);
   }
   if (fit.per_channel) out.set("per-channel", true);
+  if (fit.nuisance.any()) out.set("nuisance", name(fit.nuisance));
   if (fit.ignore_apertures) out.set("ignore-apertures", true);
   if (fit.confidence != fitting::FitOptions().confidence) out.set("confidence", fit.confidence);
   for (const auto& [flag, value] : {std::pair{"weights", flags.weights},
@@ -79,6 +81,8 @@ void FitFlags::add_to(CLI::App& app) {
   app.add_option("--robust", robust, std::string("Against wrong readings: ") + robust_list);
   app.add_option("--fix", fixed, "NAME=VALUE: hold a parameter")->take_all();
   app.add_option("--bound", bounds, "NAME=LOW,HIGH: search a parameter there only")->take_all();
+  app.add_option("--nuisance", nuisance,
+                 std::string("Estimate with the model what the sample's mount and the instrument share: ") + nuisance_list);
   app.add_flag("--ignore-apertures", fit.ignore_apertures,
                "Compare with the model at the nominal directions whatever apertures are stated");
   app.add_option("--confidence", fit.confidence, "Of the intervals (default 0.95)");
@@ -97,6 +101,7 @@ FitRequest FitFlags::request(const std::vector<std::string>& models) const {
   out.fit.metric = choice_of("--metric", metric, fitting::metric_named, metric_list);
   out.fit.weights = choice_of("--weights", weights, fitting::weights_named, weights_list).value_or(out.fit.weights);
   out.fit.robust = choice_of("--robust", robust, fitting::robust_named, robust_list);
+  out.fit.nuisance = choice_of("--nuisance", nuisance, fitting::nuisance_named, nuisance_list).value_or(out.fit.nuisance);
   for (const std::string& text : fixed) {
     const auto [name, value] = name_value(text, "--fix");
     out.fit.fixed[name] = number_from(value, "--fix " + name);

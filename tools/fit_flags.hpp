@@ -20,7 +20,7 @@ struct FitRequest {
 };
 
 struct FitFlags {
-  std::string metric, weights, robust;  ///< empty: the default of FitOptions
+  std::string metric, weights, robust, nuisance;  ///< empty: the default of FitOptions
   std::vector<std::string> fixed, bounds;
   fitting::FitOptions fit;
   ReadFlags read;

@@ -137,6 +137,19 @@ std::string residual_line(const fitting::FitResult& result) {
   return text;
 }
 
+/// A nuisance parameter, and what was known of it before.
+std::string nuisance_line(const fitting::NuisanceParameter& p, double confidence) {
+  const std::string unit = p.unit == "deg" ? "°" : "", before = p.prior ? fmt::format("; stated ± {:.3g}", *p.prior) : "";
+  if (!p.sigma)
+    return fmt::format("  {:<17} {}", p.name,
+                       p.value == 0
+                           ? "the data do not determine it: held at 0"
+                           : fmt::format("at the end of its range, {:.4g}{}: not plausible, look for another cause", p.value, unit));
+  const int digits = decimals_for(2 * *p.sigma);
+  return fmt::format("  {:<17} {:<26} {:g} % interval [{:.{}f}, {:.{}f}]{}", p.name, with_uncertainty(p.value, *p.sigma) + unit,
+                     100 * confidence, p.low.value_or(NAN), digits, p.high.value_or(NAN), digits, before);
+}
+
 /// Where the weights came from, in one line; empty where every sample counted alike.
 std::string weighting_line(const fitting::FitResult& result) {
   const fitting::Weighting& weighting = result.weighting;
@@ -157,6 +170,7 @@ std::vector<std::string> fit_lines(const fitting::FitResult& result, const Maske
                               result.reason.empty() ? "" : " (" + result.reason + ")", result.n_observations,
                               result.channels.size() > 1 ? fmt::format(", {} channels", result.channels.size()) : ""));
   for (std::string& line : parameter_lines(result)) lines.push_back(std::move(line));
+  for (const auto& p : result.nuisance) lines.push_back(nuisance_line(p, result.confidence));
   if (result.u_scale)
     lines.push_back(fmt::format("  common scale of all samples ± {:.3g} % (k = 1): not in the intervals of the linear parameters",
                                 100 * *result.u_scale));

@@ -41,7 +41,29 @@ TEST_CASE("a tilt moves the mirror direction by twice its angle and keeps the an
         Approx(gonio::lobe_geometry(anywhere).log_cos_retro).epsilon(1e-12));
 }
 
-TEST_CASE("an azimuth that is off turns the outgoing direction alone") {
-  const LobeGeometry seen = fitting::lobe_geometry({degrees(30), degrees(0), degrees(40), degrees(170)}, {0, 0, 10 * degree});
-  CHECK(seen.log_cos_psi == Approx(gonio::lobe_geometry({degrees(30), degrees(0), degrees(40), degrees(180)}).log_cos_psi));
+TEST_CASE("a surface that is turned shows both directions at smaller azimuths, and the same lobe") {
+  const GonioAngles angles{degrees(30), degrees(20), degrees(40), degrees(170)};
+  const GonioAngles seen = seen_by({0, 0, 10 * degree}, angles);
+  CHECK(seen.phi_i.degrees() == Approx(10));
+  CHECK(seen.phi_o.degrees() == Approx(160));
+  const LobeGeometry turned = fitting::lobe_geometry(angles, {0, 0, 10 * degree}), nominal = gonio::lobe_geometry(angles);
+  CHECK(turned.log_cos_psi == Approx(nominal.log_cos_psi).epsilon(1e-12));
+  CHECK(turned.slope_x != Approx(nominal.slope_x).epsilon(1e-3));
+}
+
+TEST_CASE("angles seen by a misaligned sample have the geometry of the misalignment") {
+  const GonioAngles angles{degrees(30), degrees(20), degrees(40), degrees(170)};
+  const Misalignment m{.02, -.01, .3};
+  const LobeGeometry a = fitting::lobe_geometry(angles, m), b = gonio::lobe_geometry(seen_by(m, angles));
+  CHECK(a.slope_x == Approx(b.slope_x).epsilon(1e-12));
+  CHECK(a.slope_y == Approx(b.slope_y).epsilon(1e-12));
+  CHECK(a.log_cos_psi == Approx(b.log_cos_psi).epsilon(1e-12));
+}
+
+TEST_CASE("a direction that sinks below the true horizon is taken at it") {
+  const GonioAngles grazing{degrees(20), degrees(0), degrees(89), degrees(180)};
+  const LobeGeometry seen = fitting::lobe_geometry(grazing, {2 * degree, 0, 0});
+  CHECK(seen.cos_o == 0);
+  CHECK(seen.cos_i == Approx(std::cos(18 * degree)));
+  CHECK(seen_by({2 * degree, 0, 0}, grazing).theta_o.degrees() == Approx(90));
 }
