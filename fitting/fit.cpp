@@ -237,16 +237,6 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
 
 }  // namespace
 
-double FitLikelihood::aicc() const noexcept {
-  const double k = static_cast<double>(free_parameters), left = static_cast<double>(n) - k - 1;
-  if (!(left > 0)) return std::numeric_limits<double>::infinity();
-  return 2 * k - 2 * log_likelihood + 2 * k * (k + 1) / left;
-}
-
-double FitLikelihood::bic() const noexcept {
-  return static_cast<double>(free_parameters) * std::log(static_cast<double>(n)) - 2 * log_likelihood;
-}
-
 FitResult fit(const Observations& observations, const FitOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const ModelKernel kernel = model_kernel(options.model);
@@ -271,12 +261,14 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   stages.weights_s = lap();
   std::optional<Terms> bins;
   if (!large && !as_rows) bins = binned_terms(observations, kernel, minimised, options.ignore_apertures, weigher.robust, options.threads);
-  Terms terms = large  ? std::move(large->terms)
-                : bins ? std::move(*bins)
-                       : make_terms(observations, kernel, minimised, options.threads, weigher.robust, options.weights);
+  Terms terms = large ? std::move(large->terms)
+                : bins
+                    ? std::move(*bins)
+                    : make_terms(observations, kernel, minimised, options.threads, weigher.robust, options.weights, options.most_samples);
   stages.collapse_s += lap();
-  const auto repeats = weigher.estimate_variance && !terms.weighted && !terms.collapsed && !terms.sums ? repeated_readings(observations)
-                                                                                                       : std::vector<RepeatedReadings>{};
+  // A part of the samples breaks repeats apart.
+  const bool repeats_count = weigher.estimate_variance && !terms.weighted && !terms.collapsed && terms.approximation.empty() && !terms.sums;
+  const auto repeats = repeats_count ? repeated_readings(observations) : std::vector<RepeatedReadings>{};
   weigher.repeats = repeats;
   stages.weights_s += lap();
   std::vector<MeanRows> means;

@@ -63,6 +63,9 @@ struct FitOptions {
   std::map<std::string, Bounds> bounds;  ///< narrower than the model's, for any parameter that is not fixed
   NuisanceOptions nuisance;              ///< of one fit of all channels to samples with directions
   double confidence = 0.95;              ///< of the profile intervals
+  /// Of more samples that can be neither summed nor binned, one of every few is fitted (make_terms); 0: all of them. This many take a few
+  /// seconds and determine a parameter to a thousandth of the spread of a reading.
+  std::size_t most_samples = std::size_t{1} << 16;
   int threads = 2;
 };
 

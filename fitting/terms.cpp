@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
+
+#include <fmt/format.h>
 
 #include "fitting/collapse.hpp"
 #include "fitting/solid_angles.hpp"
@@ -96,17 +100,37 @@ Terms collapsed_block(const Observations& observations, std::size_t index, std::
   return out;
 }
 
+/// Whether sample number `n` of a block counts, if one of every `one_of` does: at the place among them that the finaliser of splitmix64
+/// gives (Steele, Lea and Flood 2014).
+bool chosen(std::size_t block, std::size_t n, std::size_t one_of) {
+  if (one_of == 1) return true;
+  std::uint64_t z = (block * Observations::max_block + n / one_of + 1) * 0x9E3779B97F4A7C15u;
+  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+  return n % one_of == (z ^ (z >> 31)) % one_of;
+}
+
+std::size_t valid_count(const Observations& observations, int threads) {
+  std::vector<std::size_t> counts(observations.block_count());
+  for_each_index(counts.size(), threads, [&](std::size_t b) {
+    const ObservationBlock block = observations.block(b);
+    for (std::size_t k = 0; k < block.size; ++k) counts[b] += block.valid(k);
+  });
+  return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
+}
+
 Terms block_rows(const Observations& observations, std::size_t index, std::size_t first_sample, Transform transform, bool weighted,
-                 std::span<const double> weights) {
+                 std::span<const double> weights, std::size_t one_of) {
   Terms out;
   const ObservationBlock block = observations.block(index);
   const std::size_t channels = block.f.size();
   out.channel.resize(channels);
   std::vector<LobeGeometry> geometry;
   observations.geometry(index, geometry);
-  out.geometry.reserve(block.size), out.sample.reserve(block.size);
-  for (ChannelTerms& terms : out.channel)
-    terms.target.reserve(block.size), terms.weight.reserve(block.size), terms.value.reserve(block.size);
+  const std::size_t most = block.size / one_of + 1;
+  out.geometry.reserve(most), out.sample.reserve(most);
+  for (ChannelTerms& terms : out.channel) terms.target.reserve(most), terms.weight.reserve(most), terms.value.reserve(most);
+  std::size_t seen = 0;
   for (std::size_t k = 0; k < block.size; ++k) {
     const LobeGeometry& g = geometry[k];
     const std::optional<Omission> whole = omission(block, k, g.cos_i, g.cos_o);
@@ -118,7 +142,7 @@ Terms block_rows(const Observations& observations, std::size_t index, std::size_
       left_out = told(left_out, why);
     }
     if (left_out) out.not_fitted.add(*left_out);
-    if (std::count(use.begin(), use.end(), 1) == 0) continue;
+    if (std::count(use.begin(), use.end(), 1) == 0 || !chosen(index, seen++, one_of)) continue;
     ++out.n_observations;
     out.geometry.push_back(g);
     out.sample.push_back(first_sample + k);
@@ -193,7 +217,8 @@ void Terms::basis_and_slopes(std::size_t begin, std::size_t end, const double* t
   multiply(factor, begin, end, linear * kernel.nonlinear, slopes, stride);
 }
 
-Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads, Robust robust, Weights weights) {
+Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads, Robust robust, Weights weights,
+                 std::size_t most_samples) {
   const std::size_t blocks = observations.block_count();
   Terms terms;
   terms.kernel = kernel;
@@ -206,11 +231,18 @@ Terms make_terms(const Observations& observations, const ModelKernel& kernel, Me
   if (terms.collapsed) terms.rows_of = RowsOf::table_rows;
   std::vector<std::size_t> first(blocks + 1, 0);
   for (std::size_t b = 0; b < blocks; ++b) first[b + 1] = first[b] + observations.block(b).size;
+  std::size_t one_of = 1;
+  if (const std::size_t samples = most_samples > 0 && !terms.collapsed ? valid_count(observations, threads) : 0; samples > most_samples) {
+    one_of = (samples + most_samples - 1) / most_samples;
+    terms.approximation = fmt::format(
+        "of {} samples, too many to be fitted one by one in a moment, one of every {} was fitted: intervals are those of that part",
+        samples, one_of);
+  }
   std::vector<Terms> parts(blocks);
   for_each_index(blocks, threads, [&](std::size_t b) {
     const auto own = by_measure ? std::span(measure).subspan(first[b], first[b + 1] - first[b]) : std::span<const double>{};
     parts[b] = terms.collapsed ? collapsed_block(observations, b, first[b], terms.transform, terms.weighted, robust, own)
-                               : block_rows(observations, b, first[b], terms.transform, terms.weighted, own);
+                               : block_rows(observations, b, first[b], terms.transform, terms.weighted, own, one_of);
   });
   for (const Terms& part : parts) append(terms, part);
   return terms;

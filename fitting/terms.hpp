@@ -71,8 +71,12 @@ struct Terms {
 /// Blocks over which θh is constant collapse to one row if the model depends on nothing else and the metric allows it (log1p does not):
 /// Σ w (φ - φ̂)² = W (φ̄ - φ̂)² + Σ w (φ - φ̄)², exact, with the centred sum formed apart.
 /// `robust`: the loss of the mean of such a row, see collapse.hpp; nothing where the rows are single samples.
+///
+/// Of more than `most_samples` single samples (0: any number) one of every few becomes a row, at a pseudo-random place among them: even
+/// in the order of the data, as likely for one sample as for another, in step with no grid, and the same whenever it is asked for.
+/// `approximation` says so; `n_observations` counts the rows then, `not_fitted` looks at every sample all the same.
 Terms make_terms(const Observations& observations, const ModelKernel& kernel, Metric metric, int threads, Robust robust = Robust::none,
-                 Weights weights = Weights::automatic);
+                 Weights weights = Weights::automatic, std::size_t most_samples = 0);
 
 /// The terms of one channel alone; it becomes channel 0 of its outliers.
 Terms only_channel(const Terms& terms, std::size_t channel);

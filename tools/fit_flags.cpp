@@ -51,6 +51,7 @@ Json options_document(const FitFlags& flags, const fitting::FitOptions& fit, con
   if (fit.nuisance.any()) out.set("nuisance", name(fit.nuisance));
   if (fit.ignore_apertures) out.set("ignore-apertures", true);
   if (fit.confidence != fitting::FitOptions().confidence) out.set("confidence", fit.confidence);
+  if (fit.most_samples != fitting::FitOptions().most_samples) out.set("max-samples", static_cast<std::int64_t>(fit.most_samples));
   for (const auto& [flag, value] : {std::pair{"weights", flags.weights},
                                     {"robust", flags.robust},
                                     {"format", read.format},
@@ -86,6 +87,8 @@ void FitFlags::add_to(CLI::App& app) {
   app.add_flag("--ignore-apertures", fit.ignore_apertures,
                "Compare with the model at the nominal directions whatever apertures are stated");
   app.add_option("--confidence", fit.confidence, "Of the intervals (default 0.95)");
+  app.add_option("--max-samples", fit.most_samples,
+                 "Of more samples that can be neither summed nor binned, fit one of every few (default 65536; 0: all)");
   app.add_flag("--per-channel", fit.per_channel, "Nonlinear parameters per channel");
   read.add_to(app);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fitting/large_table.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "fitting/fit.hpp"
@@ -101,4 +102,52 @@ TEST_CASE("no large table for few samples, stated uncertainties or another metri
   CHECK_FALSE(large_table(*observe(data), kernel, Metric::linear, 2));
   const auto grid = test::readings(truth, test::polar_grid({20, 40}, 10, 30), {}, 1);
   CHECK_FALSE(large_table(*observe(grid), kernel, Metric::linear, 2));
+}
+
+TEST_CASE("wrong readings in a large table are left out and listed, and move nothing") {
+  const auto data = many_samples(0.01, 1e-4);
+  std::size_t spoilt = 0;
+  for (std::size_t k = 11; k < data->angles.size(); k += 97, ++spoilt) data->f[spoilt % 3][k] *= 20;
+  FitOptions options;
+  options.model = "ggx";
+  const FitResult result = fit(*observe(data), options);
+  REQUIRE(result.status == Status::converged);
+  CHECK(result.weighting.robust == Robust::automatic);
+  CHECK_FALSE(result.rows.reason.empty());
+  CHECK(result.n_observations <= options.most_samples);
+  const double of_part =
+      static_cast<double>(spoilt) * static_cast<double>(result.n_observations) / static_cast<double>(data->angles.size());
+  CHECK(static_cast<double>(result.weighting.n_outliers) == Approx(of_part).epsilon(0.15));  // half a thousand of them, drawn one of four
+  for (const Outlier& outlier : result.weighting.outliers) CHECK(outlier.sample % 97 == 11);
+  for (std::size_t c = 0; c < 3; ++c) {
+    CHECK(result.values[c][3] == Approx(alpha).epsilon(0.003));
+    CHECK(result.values[c][0] == Approx(truth.values()[c][0]).epsilon(0.01));
+    CHECK(result.values[c][1] == Approx(truth.values()[c][1]).epsilon(0.01));
+  }
+}
+
+TEST_CASE("of more samples than asked for an even part is fitted, which the result says, the same for any number of threads") {
+  const auto observations = observe(many_samples(0.01, 1e-4));
+  FitOptions options;
+  options.model = "cook-torrance";
+  options.most_samples = 20'000;
+  options.threads = 1;
+  const FitResult one = fit(*observations, options);
+  options.threads = 2;
+  const FitResult two = fit(*observations, options);
+  CHECK(one.values == two.values);
+  CHECK(one.n_observations == one.rows.count);
+  CHECK(one.rows.of == RowsOf::samples);
+  CHECK(one.rows.reason.find("one of every 11") != std::string::npos);
+  const Terms part =
+      make_terms(*observations, model_kernel("cook-torrance"), Metric::linear, 2, Robust::none, Weights::automatic, options.most_samples);
+  std::size_t least = 210'000, most = 0;
+  for (std::size_t first = 0; first < 210'000; first += 2'100) {
+    const auto in_it = static_cast<std::size_t>(
+        std::count_if(part.sample.begin(), part.sample.end(), [&](std::size_t k) { return k >= first && k < first + 2'100; }));
+    least = std::min(least, in_it), most = std::max(most, in_it);
+  }
+  CHECK(least >= 2'100 / 11 - 2);  // but for the groups that the ends cut
+  CHECK(most <= 2'100 / 11 + 3);
+  CHECK(make_terms(*observations, model_kernel("cook-torrance"), Metric::linear, 2).rows() == 210'000);
 }
