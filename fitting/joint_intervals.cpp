@@ -42,8 +42,7 @@ class Path {
   /// Whether the cost there would fall further if the search did not end: then it is the search that limits the parameter, not the data.
   bool limited_by_search(double value, const Minimum& at, double budget, int threads) const {
     std::vector<double> normal, gradient;
-    linearise(profile_.terms(), space_, axis_ ? profile_.limits() : holding(value).limits(), at.point.linear(), at.point.theta, {},
-              threads)
+    linearise(profile_.terms(), space_, axis_ ? profile_.limits() : holding(value).limits(), at.point.linear(), at.point.theta, {}, threads)
         .reduced(normal, gradient);
     for (std::size_t a = 0; a < gradient.size(); ++a) {
       const SearchAxis& axis = space_.axes()[a];

@@ -6,8 +6,9 @@
 
 #include "fitting/global_search.hpp"
 #include "fitting/thinned.hpp"
-#include "tests/check.hpp"
 #include "tests/fitting/synthetic.hpp"
+
+#include "tests/check.hpp"
 
 using namespace gonio;
 using namespace gonio::fitting;
