@@ -84,7 +84,18 @@ std::string short_text(const fitting::FittedParameter& p, const ModelInfo& model
   return {};
 }
 
-/// A line for every parameter; of many channels a line for every channel, with what belongs to it, and then the shared ones.
+/// Value and interval of a nuisance parameter, and what was known of it before.
+Row nuisance_cells(const fitting::NuisanceParameter& p, double confidence) {
+  const std::string unit = p.unit == "deg" ? "°" : "", before = p.prior ? fmt::format("; stated ± {:.3g}", *p.prior) : "";
+  if (!p.sigma && p.value == 0) return {"held at 0", "the data do not determine it"};
+  if (!p.sigma) return {fmt::format("{:.4g}{}", p.value, unit), "the end of its range: not plausible, look for another cause"};
+  const int digits = decimals_for(2 * *p.sigma);
+  return {with_uncertainty(p.value, *p.sigma) + unit, fmt::format("{:g} % interval [{:.{}f}, {:.{}f}]{}", 100 * confidence,
+                                                                  p.low.value_or(NAN), digits, p.high.value_or(NAN), digits, before)};
+}
+
+/// A line for every parameter, those of the model first; of many channels a line for every channel, with what belongs to it, and then the
+/// shared ones.
 std::vector<std::string> parameter_lines(const fitting::FitResult& result) {
   constexpr std::size_t few_channels = 4;
   const ModelInfo& model = model_info(result.model);
@@ -103,6 +114,12 @@ std::vector<std::string> parameter_lines(const fitting::FitResult& result) {
     if (channels > 1 && channels <= few_channels) row.push_back(p.channel ? result.channels[*p.channel].name : "");
     row.push_back(value_text(p, model));
     row.push_back(interval_text(p, result.confidence));
+    rows.push_back(std::move(row));
+  }
+  for (const fitting::NuisanceParameter& p : result.nuisance) {
+    Row row{p.name};
+    if (channels > 1 && channels <= few_channels) row.emplace_back();
+    for (std::string& cell : nuisance_cells(p, result.confidence)) row.push_back(std::move(cell));
     rows.push_back(std::move(row));
   }
   std::vector<std::string> lines;
@@ -137,19 +154,6 @@ std::string residual_line(const fitting::FitResult& result) {
   return text;
 }
 
-/// A nuisance parameter, and what was known of it before.
-std::string nuisance_line(const fitting::NuisanceParameter& p, double confidence) {
-  const std::string unit = p.unit == "deg" ? "°" : "", before = p.prior ? fmt::format("; stated ± {:.3g}", *p.prior) : "";
-  if (!p.sigma)
-    return fmt::format("  {:<17} {}", p.name,
-                       p.value == 0
-                           ? "the data do not determine it: held at 0"
-                           : fmt::format("at the end of its range, {:.4g}{}: not plausible, look for another cause", p.value, unit));
-  const int digits = decimals_for(2 * *p.sigma);
-  return fmt::format("  {:<17} {:<26} {:g} % interval [{:.{}f}, {:.{}f}]{}", p.name, with_uncertainty(p.value, *p.sigma) + unit,
-                     100 * confidence, p.low.value_or(NAN), digits, p.high.value_or(NAN), digits, before);
-}
-
 /// Where the weights came from, in one line; empty where every sample counted alike.
 std::string weighting_line(const fitting::FitResult& result) {
   const fitting::Weighting& weighting = result.weighting;
@@ -170,7 +174,6 @@ std::vector<std::string> fit_lines(const fitting::FitResult& result, const Maske
                               result.reason.empty() ? "" : " (" + result.reason + ")", result.n_observations,
                               result.channels.size() > 1 ? fmt::format(", {} channels", result.channels.size()) : ""));
   for (std::string& line : parameter_lines(result)) lines.push_back(std::move(line));
-  for (const auto& p : result.nuisance) lines.push_back(nuisance_line(p, result.confidence));
   if (result.u_scale)
     lines.push_back(fmt::format("  common scale of all samples ± {:.3g} % (k = 1): not in the intervals of the linear parameters",
                                 100 * *result.u_scale));
