@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SHA-256 by libcrypto, which uses the processor's SHA instructions where it has them.
+// SHA-256 by Nettle, which uses the processor's SHA instructions where it has them.
 #include "data-schemas/sha256.hpp"
 
-#include <openssl/evp.h>
+#include <nettle/sha2.h>
 
+#include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <system_error>
@@ -17,31 +19,23 @@ namespace {
 
 class Digest {
  public:
-  Digest() : context_(EVP_MD_CTX_new()) { require(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1); }
+  Digest() { sha256_init(&context_); }
 
-  void add(const void* bytes, std::size_t count) { require(EVP_DigestUpdate(context_.get(), bytes, count) == 1); }
+  void add(const void* bytes, std::size_t count) { sha256_update(&context_, count, static_cast<const std::uint8_t*>(bytes)); }
 
   std::string hexadecimal() {
-    unsigned char digest[EVP_MAX_MD_SIZE];
-    unsigned length = 0;
-    require(EVP_DigestFinal_ex(context_.get(), digest, &length) == 1);
+    std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest;
+    sha256_digest(&context_, digest.size(), digest.data());
     std::string text;
-    for (unsigned i = 0; i < length; ++i) {
-      text += "0123456789abcdef"[digest[i] >> 4];
-      text += "0123456789abcdef"[digest[i] & 15];
+    for (const std::uint8_t byte : digest) {
+      text += "0123456789abcdef"[byte >> 4];
+      text += "0123456789abcdef"[byte & 15];
     }
     return text;
   }
 
  private:
-  static void require(bool fine) {
-    if (!fine) throw Error(ErrorKind::internal, {"libcrypto", "a failure of SHA-256", "a digest"});
-  }
-
-  struct Free {
-    void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
-  };
-  std::unique_ptr<EVP_MD_CTX, Free> context_;
+  sha256_ctx context_;
 };
 
 }  // namespace

@@ -26,7 +26,7 @@ struct Layer {
 const std::map<std::string, Layer>& table() {
   static const std::map<std::string, Layer> layers{
       {"brdf", {{}, {"Eigen/"}}},
-      {"data-schemas", {{"brdf"}, {"nlohmann/", "valijson/", "openssl/"}}},
+      {"data-schemas", {{"brdf"}, {"nlohmann/", "valijson/", "nettle/"}}},
       {"tabulated", {{"brdf", "data-schemas"}, {"OpenEXR/", "Imf", "Imath", "Iex", "half.h", "pugixml"}}},
       {"fitting", {{"brdf"}, {"ceres/", "Eigen/"}}},
       {"scene", {{"brdf", "data-schemas"}, {"embree", "tiny_obj_loader", "OpenEXR/", "Imf", "Imath", "png.h"}}},
