@@ -119,14 +119,8 @@ std::vector<std::vector<double>> correlation(const std::vector<Solution>& soluti
   return out;
 }
 
-/// Solutions in channel order: one for all, or one per channel; the weighting stands in the result already.
-void assemble(FitResult& result, const std::vector<Solution>& solutions, const ModelKernel& kernel, int threads) {
-  const auto& parameters = kernel.info->parameters;
-  std::vector<Matrix> covariance;
-  double chi2 = 0, dof = 0, budget = 0, signal_to_noise2 = 0;
-  const bool absolute = result.weighting.source == WeightSource::uncertainty || result.weighting.source == WeightSource::repeats ||
-                        result.weighting.source == WeightSource::rows;
-  std::size_t count = 0;
+/// Status, values and minima of solutions in channel order: one for all, or one per channel.
+void add_values(FitResult& result, const std::vector<Solution>& solutions) {
   result.status = Status::converged;
   std::size_t channel = 0;
   for (const Solution& solution : solutions) {
@@ -141,11 +135,26 @@ void assemble(FitResult& result, const std::vector<Solution>& solutions, const M
       std::vector<double> values = solution.linear[c];
       values.insert(values.end(), solution.theta.begin(), solution.theta.end());
       result.values.push_back(std::move(values));
+    }
+  }
+}
+
+/// What the same solutions say beyond their values; the weighting stands in the result already.
+void add_estimates(FitResult& result, const std::vector<Solution>& solutions, const ModelKernel& kernel, int threads) {
+  const auto& parameters = kernel.info->parameters;
+  std::vector<Matrix> covariance;
+  double chi2 = 0, dof = 0, budget = 0, signal_to_noise2 = 0;
+  const bool absolute = result.weighting.source == WeightSource::uncertainty || result.weighting.source == WeightSource::repeats ||
+                        result.weighting.source == WeightSource::rows;
+  std::size_t count = 0, channel = 0;
+  for (const Solution& solution : solutions) {
+    const std::size_t first = solutions.size() > 1 ? channel : 0;
+    for (std::size_t c = 0; c < solution.linear.size(); ++c, ++channel) {
       for (std::size_t k = 0; k < kernel.linear; ++k)
         result.parameters.push_back(fitted(parameters[k], solution.linear_estimate[c][k], channel));
       covariance.push_back(solution.covariance_of(c));
     }
-    add_determined(result, solution, *kernel.info, own.value_or(0));
+    add_determined(result, solution, *kernel.info, first);
     result.likelihood.log_likelihood += solution.log_likelihood;
     result.likelihood.free_parameters += static_cast<std::size_t>(solution.free_parameters);
     signal_to_noise2 += solution.signal_to_noise2;
@@ -227,7 +236,8 @@ FitResult fit_terms(Terms& terms, const Channels& channels, const Observations* 
   }
   const auto broken = std::find_if(solutions.begin(), solutions.end(), [](const Solution& s) { return s.linear.empty(); });
   if (broken == solutions.end()) {
-    assemble(result, solutions, kernel, options.threads);
+    add_values(result, solutions);
+    if (!options.only_values) add_estimates(result, solutions, kernel, options.threads);
   } else {
     result.status = Status::failed;
     result.reason = broken->reason;
@@ -278,7 +288,7 @@ FitResult fit(const Observations& observations, const FitOptions& options) {
   if (large) result.weighting = std::move(judged);
   if (by_measure) result.weighting.source = WeightSource::solid_angle;
   result.metric = metric;
-  if (!result.values.empty()) {
+  if (!result.values.empty() && !options.only_values) {
     lap();
     const auto aligned = result.nuisance.empty() ? nullptr : corrected(observations, result.nuisance);
     add_residuals(result, aligned ? *aligned : observations, kernel, means, options.threads);
@@ -307,7 +317,7 @@ FitResult fit(const SufficientStatistics& statistics, const FitOptions& options)
     result.weighting.robust = weigher.robust;
     result.weighting.reason = "the means of table rows were made without values far from the others of their row";
   }
-  if (!result.values.empty()) {
+  if (!result.values.empty() && !options.only_values) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     const auto chi2_per_dof = result.errors.chi2_per_dof;
     result.errors = {unknown, unknown, unknown, unknown, unknown, chi2_per_dof};

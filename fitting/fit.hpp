@@ -66,6 +66,8 @@ struct FitOptions {
   /// Of more samples that can be neither summed nor binned, one of every few is fitted (make_terms); 0: all of them. This many take a few
   /// seconds and determine a parameter to a thousandth of the spread of a reading.
   std::size_t most_samples = std::size_t{1} << 16;
+  /// Values and how they were weighted, but no intervals, errors, residuals, likelihood or checks: `parameters` stays empty.
+  bool only_values = false;
   int threads = 2;
 };
 

@@ -70,6 +70,7 @@ SolveOptions solve_options(const FitOptions& options, const ModelKernel& kernel,
                                     free.begin() + static_cast<std::ptrdiff_t>(end), [](bool is_free) { return is_free; }));
   }
   out.confidence = options.confidence;
+  out.only_values = options.only_values;
   out.threads = options.threads;
   return out;
 }

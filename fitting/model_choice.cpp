@@ -40,45 +40,14 @@ std::vector<std::uint8_t> thinned(std::size_t samples) {
   return keep;
 }
 
-/// The kept measurements as a data set of their own, so that no fit of a fold has to walk through the whole table.
-std::shared_ptr<const Observations> copy_of(const Observations& observations, const std::vector<std::uint8_t>& keep) {
-  auto out = std::make_shared<Dataset>();
-  out->channels = observations.channels();
-  out->f.resize(out->channels.size());
-  bool has_u = true;
-  for (std::size_t b = 0; b < observations.block_count(); ++b) has_u = has_u && observations.block(b).u.size() == out->channels.size();
-  if (has_u) out->u.resize(out->channels.size());
-  const std::vector<CorrelatedComponent> stated = observations.correlated();
-  for (const CorrelatedComponent& component : stated) out->correlated.push_back({component.name, component.u, {}});
-  std::vector<GonioAngles> angles;
-  for (std::size_t b = 0, first = 0; b < observations.block_count(); ++b) {
-    const ObservationBlock block = observations.block(b);
-    observations.angles(b, angles);
-    for (std::size_t k = 0; k < block.size; ++k) {
-      if (!keep[first + k] || !block.valid(k)) continue;
-      out->angles.push_back(angles[k]);
-      for (std::size_t e = 0; e < stated.size(); ++e)
-        if (!stated[e].sensitivity.empty()) out->correlated[e].sensitivity.push_back(stated[e].sensitivity[first + k]);
-      for (std::size_t c = 0; c < out->f.size(); ++c) {
-        out->f[c].push_back(block.f[c][k]);
-        if (has_u) out->u[c].push_back(block.u[c][k]);
-      }
-    }
-    first += block.size;
-  }
-  return observe(out);
-}
-
 /// A fit, or why there is none.
 struct Attempt {
   FitResult fit;
   std::string refused;
 };
 
-Attempt attempt(const Observations& observations, const ChoiceOptions& options, const std::string& model, std::size_t total) {
+Attempt attempt(const Observations& observations, const ChoiceOptions& options, FitOptions fit_options, std::size_t total) {
   if (options.stop && *options.stop) throw Error(ErrorKind::interrupted, {"model choice", "a signal", "a run to the end"});
-  FitOptions fit_options = options.fit;
-  fit_options.model = model;
   fit_options.threads = 1;
   Attempt out;
   try {
@@ -147,7 +116,7 @@ class Choice {
     const auto begin = std::chrono::steady_clock::now();
     const std::vector<std::uint8_t> keep = thinned(sample_count(*observations_));
     const bool all = std::find(keep.begin(), keep.end(), 0) == keep.end();
-    part_ = all ? observations_ : copy_of(*observations_, keep);
+    part_ = all ? observations_ : copied(*observations_, keep);
     folds_ = incidence_folds(*part_, options_.max_folds);
     samples_ = gather(*part_, std::vector<std::uint8_t>(folds_.of_sample.size(), 1), folds_.of_sample);
     noise_ = noise_level(*part_, samples_);
@@ -173,7 +142,9 @@ class Choice {
   void fit_all() {
     for_each_index(candidates_.size(), options_.jobs, [&](std::size_t m) {
       Candidate& candidate = candidates_[m];
-      Attempt done = attempt(*observations_, options_, candidate.model, total());
+      FitOptions how = options_.fit;
+      how.model = candidate.model;
+      Attempt done = attempt(*observations_, options_, std::move(how), total());
       candidate.ranked = done.refused.empty();
       candidate.reason = std::move(done.refused);
       candidate.fit = std::move(done.fit);
@@ -208,7 +179,10 @@ class Choice {
         if (options_.fitted) options_.fitted(total());
         return;
       }
-      const Attempt done = attempt(*without[fold], options_, candidates_[m].model, total());
+      FitOptions how = options_.fit;
+      how.model = candidates_[m].model;
+      how.only_values = true;
+      const Attempt done = attempt(*without[fold], options_, std::move(how), total());
       failed[task] = done.refused;
       Samples own;
       if (done.refused.empty())

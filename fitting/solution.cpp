@@ -71,7 +71,7 @@ Solution solve(Terms& terms, const SolveOptions& options, const std::vector<Chan
     for (std::size_t k = 0; k < all.size(); ++k)
       if (k != best) solution.others.push_back(std::move(all[k]));
     solution.scan_s = lap();
-    estimate(solution, profile, space, found, options, changes);
+    if (!options.only_values) estimate(solution, profile, space, found, options, changes);
     solution.intervals_s = lap();
     return solution;
   }

@@ -66,10 +66,11 @@ struct SolveOptions {
   /// Nuisance parameters fitted beside these: those that take a degree of freedom, and those with a prior that gives it back.
   std::size_t nuisance = 0, nuisance_with_prior = 0;
   double confidence = 0.95;
+  bool only_values = false;  ///< no intervals
   int threads = 1;
 };
 
-/// Scan, minima, polish, and three rounds of weights from the fitted values where the data allow them; then the intervals.
+/// Scan, minima, polish, and three rounds of weights from the fitted values where the data allow them; then the intervals, if asked.
 /// `changes`: by one standard uncertainty of everything that samples share, independent of each other. `known`: as for search_globally.
 Solution solve(Terms& terms, const SolveOptions& options, const std::vector<Change>& changes, std::vector<Minimum> known = {});
 

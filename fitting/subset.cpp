@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fitting/subset.hpp"
 
+#include <tuple>
 #include <utility>
 
 #include "brdf/error.hpp"
+#include "fitting/joint_observations.hpp"
 
 namespace gonio::fitting {
 namespace {
@@ -44,6 +46,26 @@ class SubsetObservations final : public Observations {
   std::vector<std::size_t> first_;  ///< number of the first sample of every block
 };
 
+/// An empty data set for samples like those of a block.
+std::shared_ptr<Dataset> like(const Observations& observations, const ObservationBlock& block, const Apertures& apertures,
+                              const std::vector<CorrelatedComponent>& stated) {
+  auto out = std::make_shared<Dataset>();
+  out->channels = observations.channels();
+  out->symmetry = observations.symmetry();
+  out->apertures = apertures;
+  out->f.resize(block.f.size());
+  out->u.resize(block.u.size());
+  for (const CorrelatedComponent& component : stated) out->correlated.push_back({component.name, component.u, {}});
+  return out;
+}
+
+bool same(const Apertures& a, const Apertures& b) {
+  const auto all = [](const Apertures& of) {
+    return std::tie(of.source_half_angle_deg, of.receiver_half_angle_deg, of.spot_diameter_m, of.field_diameter_m);
+  };
+  return all(a) == all(b);
+}
+
 }  // namespace
 
 std::size_t sample_count(const Observations& observations) {
@@ -56,6 +78,38 @@ std::shared_ptr<const Observations> subset(std::shared_ptr<const Observations> a
   if (const std::size_t size = sample_count(*all); size != keep.size())
     throw Error(ErrorKind::internal, {"subset", std::to_string(keep.size()) + " marks", std::to_string(size) + " for as many samples"});
   return std::make_shared<SubsetObservations>(std::move(all), std::move(keep));
+}
+
+std::shared_ptr<const Observations> copied(const Observations& all, const std::vector<std::uint8_t>& keep) {
+  const std::vector<CorrelatedComponent> stated = all.correlated();
+  std::vector<std::shared_ptr<Dataset>> parts;
+  std::vector<GonioAngles> angles;
+  bool with_read = false;
+  for (std::size_t b = 0, first = 0; b < all.block_count(); ++b) {
+    const ObservationBlock block = all.block(b);
+    const Apertures apertures = all.apertures(b);
+    const bool read = !block.read_variance.empty();
+    if (parts.empty() || !same(parts.back()->apertures, apertures) || parts.back()->u.size() != block.u.size() || with_read != read)
+      parts.push_back(like(all, block, apertures, stated));
+    with_read = read;
+    Dataset& out = *parts.back();
+    all.angles(b, angles);
+    for (std::size_t k = 0; k < block.size; ++k) {
+      if (!keep[first + k] || !block.valid(k)) continue;
+      out.angles.push_back(angles[k]);
+      for (std::size_t e = 0; e < stated.size(); ++e)
+        if (!stated[e].sensitivity.empty()) out.correlated[e].sensitivity.push_back(stated[e].sensitivity[first + k]);
+      for (std::size_t c = 0; c < block.f.size(); ++c) out.f[c].push_back(block.f[c][k]);
+      for (std::size_t c = 0; c < block.u.size(); ++c) out.u[c].push_back(block.u[c][k]);
+      for (std::size_t c = 0; c < block.read_variance.size(); ++c)
+        out.extra["var_read_" + out.channels[c].name].push_back(block.read_variance[c][k]);
+    }
+    first += block.size;
+  }
+  while (parts.size() > 1 && parts.back()->size() == 0) parts.pop_back();
+  std::vector<std::shared_ptr<const Observations>> observed;
+  for (auto& part : parts) observed.push_back(observe(std::move(part)));
+  return join(std::move(observed));
 }
 
 }  // namespace gonio::fitting
