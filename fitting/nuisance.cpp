@@ -266,7 +266,8 @@ class Estimation {
       p.bound = axis.bound * axis.unit;
       if (axis.with_prior) p.prior = axis.unit;
       if (solved_ && active_[k] && !at_bound(k)) {
-        p.sigma = axis.unit * std::sqrt(own(index(k), index(k)) + more.row(index(k)).squaredNorm());
+        const double shared = components_.empty() ? 0 : more.row(index(k)).squaredNorm();
+        p.sigma = axis.unit * std::sqrt(own(index(k), index(k)) + shared);
         p.low = p.value - q * *p.sigma, p.high = p.value + q * *p.sigma;
         p.kind = IntervalKind::interval;
       }

@@ -19,7 +19,6 @@ using namespace gonio::test;
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double normal_quantile = 1.959964;
 
 const FittedParameter& parameter(const FitResult& result, const std::string& name) {
   for (const FittedParameter& p : result.parameters)
