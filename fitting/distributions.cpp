@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fitting/distributions.hpp"
 
+#include <math.h>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -24,6 +26,12 @@ double bisect(F&& falling, double low, double high) noexcept {
   return 0.5 * (low + high);
 }
 
+/// ln Γ(x), x > 0. std::lgamma also writes the sign into a global, over which threads would race.
+double log_gamma(double x) noexcept {
+  int sign = 0;
+  return ::lgamma_r(x, &sign);
+}
+
 }  // namespace
 
 double normal_upper_tail(double z) noexcept { return 0.5 * std::erfc(z / std::numbers::sqrt2); }
@@ -35,7 +43,7 @@ double normal_upper_quantile(double p) noexcept {
 double chi2_upper_tail(double chi2, double dof) noexcept {
   if (!(chi2 > 0)) return 1;
   const double a = dof / 2, x = chi2 / 2;
-  const double scale = std::exp(a * std::log(x) - x - std::lgamma(a));
+  const double scale = std::exp(a * std::log(x) - x - log_gamma(a));
   if (x < a + 1) {
     double term = 1 / a, sum = term;
     for (int k = 1; k < most_terms && term > sum * converged; ++k) sum += term *= x / (a + k);
@@ -72,7 +80,7 @@ double binomial_upper_tail(std::size_t k, std::size_t n, double p) noexcept {
   if (k > n || p <= 0) return 0;
   const auto count = static_cast<double>(n);
   const auto log_term = [&](double j) {
-    return std::lgamma(count + 1) - std::lgamma(j + 1) - std::lgamma(count - j + 1) + j * std::log(p) + (count - j) * std::log1p(-p);
+    return log_gamma(count + 1) - log_gamma(j + 1) - log_gamma(count - j + 1) + j * std::log(p) + (count - j) * std::log1p(-p);
   };
   // The shorter way round the mode: sum the tail itself above it, and one minus the rest below it.
   const auto first = static_cast<double>(k);
