@@ -11,6 +11,7 @@
 
 #include "brdf/error.hpp"
 #include "fitting/corrected.hpp"
+#include "fitting/scrambled.hpp"
 #include "fitting/subset.hpp"
 #include "fitting/threads.hpp"
 
@@ -26,16 +27,13 @@ std::size_t index_of(Metric metric) {
   return static_cast<std::size_t>(std::find(every_metric.begin(), every_metric.end(), metric) - every_metric.begin());
 }
 
-/// Every sample, or of many a pseudo-random part that no grid can resonate with (the finaliser of splitmix64, Steele et al. 2014).
+/// Every sample, or of many a pseudo-random part of them.
 std::vector<std::uint8_t> thinned(std::size_t samples) {
   std::vector<std::uint8_t> keep(samples, 1);
   if (samples <= most_samples) return keep;
   const auto limit = static_cast<std::uint64_t>(std::ldexp(static_cast<double>(most_samples) / static_cast<double>(samples), 64));
   for (std::size_t k = 0; k < samples; ++k) {
-    std::uint64_t z = (k + 1) * 0x9E3779B97F4A7C15u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    keep[k] = (z ^ (z >> 31)) < limit;
+    keep[k] = scrambled(k) < limit;
   }
   return keep;
 }

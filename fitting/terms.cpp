@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "fitting/collapse.hpp"
+#include "fitting/scrambled.hpp"
 #include "fitting/solid_angles.hpp"
 #include "fitting/threads.hpp"
 
@@ -100,14 +101,10 @@ Terms collapsed_block(const Observations& observations, std::size_t index, std::
   return out;
 }
 
-/// Whether sample number `n` of a block counts, if one of every `one_of` does: at the place among them that the finaliser of splitmix64
-/// gives (Steele, Lea and Flood 2014).
+/// Whether sample number `n` of a block counts, if one of every `one_of` does: at a pseudo-random place among them.
 bool chosen(std::size_t block, std::size_t n, std::size_t one_of) {
   if (one_of == 1) return true;
-  std::uint64_t z = (block * Observations::max_block + n / one_of + 1) * 0x9E3779B97F4A7C15u;
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return n % one_of == (z ^ (z >> 31)) % one_of;
+  return n % one_of == scrambled(block * Observations::max_block + n / one_of) % one_of;
 }
 
 std::size_t valid_count(const Observations& observations, int threads) {

@@ -66,14 +66,7 @@ void require_coverage(const ReceiverReadings& readings, unsigned first, int draw
   WARN(readings.truth.model().name << ", s " << s << ", receiver of half-angle " << half_angle_deg << " degrees, seeds from " << first
                                    << found.text() << "\n  apertures ignored: s is " << least << " to " << largest
                                    << " of the truth in 20 draws");
-  CHECK(found.converged == draws);
-  REQUIRE(found.parameters.size() == 7);
-  for (const ParameterCoverage& p : found.parameters) {
-    INFO(p.name);
-    CHECK(found.percent(p) >= fewest);
-    CHECK(found.percent(p) <= most);
-    CHECK(found.half_percent(p) < fewest);
-  }
+  require_coverage(found, 7, fewest, most);
   // The mean over a disc of half-angle a is a lobe of s/(1 + s (a/b)²/4), b = 1 for a mirror lobe; half-vector lobes are twice as broad.
   const double a = half_angle_deg * std::numbers::pi / 180, b = readings.truth.model().name == std::string("phong") ? 1 : 2;
   const double expected = 1 / (1 + s * a * a / (4 * b * b));

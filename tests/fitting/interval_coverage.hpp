@@ -70,4 +70,7 @@ inline Coverage coverage(const AnalyticBrdf& truth, unsigned first, int draws,
   return out;
 }
 
+/// The test: every draw converged, and the intervals of each of so many parameters held the truth in `fewest` to `most` per cent.
+void require_coverage(const Coverage& found, std::size_t parameters, double fewest, double most);
+
 }  // namespace gonio::test

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fitting/fit.hpp"
+#include "tests/fitting/fitted_parameter.hpp"
 #include "tests/fitting/synthetic.hpp"
 
 #include "tests/check.hpp"
@@ -13,12 +14,6 @@ using namespace gonio::fitting;
 using namespace gonio::test;
 
 namespace {
-
-const FittedParameter& parameter(const FitResult& result, const std::string& name) {
-  for (const FittedParameter& p : result.parameters)
-    if (p.name == name) return p;
-  throw std::out_of_range(name);
-}
 
 bool holds(const FittedParameter& p, double truth, double shrink = 1) {
   const double low = p.low ? p.value - shrink * (p.value - *p.low) : -INFINITY,

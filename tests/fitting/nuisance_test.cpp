@@ -7,6 +7,7 @@
 
 #include "brdf/error.hpp"
 #include "fitting/corrected.hpp"
+#include "tests/fitting/fitted_parameter.hpp"
 #include "tests/fitting/ngan_grid.hpp"
 #include "tests/fitting/synthetic.hpp"
 
@@ -20,11 +21,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-const FittedParameter& parameter(const FitResult& result, const std::string& name) {
-  for (const FittedParameter& p : result.parameters)
-    if (p.name == name) return p;
-  throw std::out_of_range(name);
-}
 const NuisanceParameter& nuisance(const FitResult& result, const std::string& name) {
   for (const NuisanceParameter& p : result.nuisance)
     if (p.name == name) return p;

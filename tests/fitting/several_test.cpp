@@ -4,6 +4,7 @@
 
 #include "brdf/error.hpp"
 #include "fitting/fit.hpp"
+#include "tests/fitting/fitted_parameter.hpp"
 #include "tests/fitting/ngan_grid.hpp"
 #include "tests/fitting/synthetic.hpp"
 
@@ -22,12 +23,6 @@ std::vector<GonioAngles> lobe_angles() {
     for (double step = -20; step <= 20; step += 0.5)
       out.push_back({degrees(theta_i), degrees(0), degrees(std::abs(theta_i + step)), degrees(theta_i + step < 0 ? 0 : 180)});
   return out;
-}
-
-const FittedParameter& parameter(const FitResult& result, const std::string& name, std::size_t channel = 0) {
-  for (const FittedParameter& p : result.parameters)
-    if (p.name == name && p.channel.value_or(channel) == channel) return p;
-  throw std::out_of_range(name);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fitting/fit.hpp"
+#include "tests/fitting/fitted_parameter.hpp"
 #include "tests/fitting/synthetic.hpp"
 
 #include "tests/check.hpp"
@@ -14,12 +15,6 @@ using namespace gonio::fitting;
 using namespace gonio::test;
 
 namespace {
-
-const FittedParameter& parameter(const FitResult& result, const std::string& name) {
-  for (const FittedParameter& p : result.parameters)
-    if (p.name == name) return p;
-  throw std::out_of_range(name);
-}
 
 std::shared_ptr<Dataset> sweep() {
   return readings(lobe("blinn-phong", .2, .3, 20), polar_grid({0, 20, 40, 60}, 10, 30), {1e-3, 1e-4, 0}, 3);
