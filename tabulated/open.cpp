@@ -21,28 +21,59 @@ namespace {
 /// Enough to recognise any format.
 constexpr std::size_t head_size = 4096;
 
-void write_samples_as_csv(const Opened& opened, const std::filesystem::path& path, const WriteOptions&) {
+ExportNotes write_samples_as_csv(const Opened& opened, const std::filesystem::path& path, const WriteOptions&) {
   if (!opened.dataset)
     throw Error(ErrorKind::input, {path.string(), fmt::format("a {} without samples", opened.format), "samples to write as csv"});
   write_csv(*opened.dataset, path);
+  return {.files = {path}, .n_nodes = opened.dataset->size(), .facts = {}, .lost = {}};
 }
 
-void write_samples_as_exr(const Opened& opened, const std::filesystem::path& path, const WriteOptions&) {
+ExportNotes write_samples_as_exr(const Opened& opened, const std::filesystem::path& path, const WriteOptions&) {
   if (!opened.dataset)
     throw Error(ErrorKind::input, {path.string(), fmt::format("a {} without samples", opened.format), "samples to write as a table"});
-  write_brdf_exr(tabulate(*opened.dataset), path);
+  const SampleTable table = tabulate(*opened.dataset);
+  write_brdf_exr(table, path);
+  ExportNotes notes{.files = {path}, .n_nodes = table.cell_count(), .facts = {}, .lost = {}};
+  for (std::size_t cell = 0; cell < table.cell_count(); ++cell) notes.n_unknown += table.is_empty(cell) ? 1 : 0;
+  notes.facts.emplace_back("grid", fmt::format("{} incident x {} outgoing directions", table.incident.size(), table.outgoing.size()));
+  if (notes.n_unknown > 0) notes.lost.emplace_back("directions without a sample are NaN");
+  for (const std::string& column : table.dropped_columns)
+    notes.lost.push_back(fmt::format("the column {} has no place in a table", column));
+  return notes;
 }
 
-void write_brdf_as_merl(const Opened& opened, const std::filesystem::path& path, const WriteOptions& options) {
+ExportNotes write_brdf_as_merl(const Opened& opened, const std::filesystem::path& path, const WriteOptions& options) {
   if (!opened.brdf)
     throw Error(ErrorKind::input, {path.string(), fmt::format("a {} that cannot be evaluated", opened.format), "a model or a table"});
-  write_merl(*opened.brdf, path, options, opened.format, opened.simulated);
+  const MerlWriteResult result = write_merl(*opened.brdf, path, options, opened.format, opened.simulated);
+  ExportNotes notes{.files = {path, merl_sidecar(path)},
+                    .n_nodes = MerlGrid::cell_count - result.below_horizon,
+                    .n_below_horizon = result.below_horizon,
+                    .n_unknown = result.unknown,
+                    .n_negative = result.negative,
+                    .facts = {{"nodes", name(options.merl_nodes)}},
+                    .lost = {}};
+  if (result.unknown + result.negative > 0) notes.lost.emplace_back("cells with an unknown or negative value are marked -1: invalid");
+  return notes;
 }
 
 std::string known_formats() {
   std::string out;
-  for (const Format& format : formats()) out += (out.empty() ? "" : ", ") + std::string(format.name);
+  for (const Format& format : formats())
+    if (format.open) out += (out.empty() ? "" : ", ") + std::string(format.name);
   return out;
+}
+
+Opened open_as(const Format& format, const std::filesystem::path& path, const ReadOptions& options) {
+  std::string known;
+  for (const char* key : format.assumptions) known += (known.empty() ? "" : ", ") + std::string(key);
+  std::vector<Fault> faults;
+  for (const auto& [key, answer] : options.assume)
+    if (std::find(format.assumptions.begin(), format.assumptions.end(), key) == format.assumptions.end())
+      faults.push_back({"--assume " + key, fmt::format("an answer to what {} never asks", format.name),
+                        known.empty() ? "no --assume: such files say all that is needed" : "one of " + known});
+  if (!faults.empty()) throw Error(ErrorKind::usage, "assumptions that do not fit the file", faults);
+  return format.open(path, options);
 }
 
 std::string head_of(const std::filesystem::path& path) {
@@ -56,17 +87,23 @@ std::string head_of(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::optional<std::string> ReadOptions::assumed(const std::string& key) const {
+  const auto answer = assume.find(key);
+  return answer == assume.end() ? std::nullopt : std::optional(answer->second);
+}
+
 const std::vector<Format>& formats() {
   // In the order of recognition: text comes last because anything readable could be it.
   static const std::vector<Format> list{
-      {"merl", "90 x 90 x 180 half/difference table of red, green, blue (.binary)", recognises_merl, open_merl, write_brdf_as_merl},
+      {"merl", "90 x 90 x 180 half/difference table of red, green, blue (.binary)", recognises_merl, open_merl, write_brdf_as_merl,
+       ".binary"},
       {"brdf-exr", "table of incident by outgoing directions as an OpenEXR file (.brdf.exr)", recognises_brdf_exr, open_brdf_exr,
-       write_samples_as_exr},
-      {"rgl", "material file of the RGL database, RGB or spectral (.bsdf, read only)", recognises_rgl, open_rgl, nullptr},
-      {"fit-json", "the document of a fit, as the model it describes (read only)", recognises_fit_json, open_fit_json, nullptr},
-      {"alta", "samples as text of the ALTA library, with its #DIM and #PARAM lines (read only)", recognises_alta, open_alta, nullptr},
+       write_samples_as_exr, ".brdf.exr"},
+      {"rgl", "material file of the RGL database, RGB or spectral (.bsdf, read only)", recognises_rgl, open_rgl},
+      {"fit-json", "the document of a fit, as the model it describes (read only)", recognises_fit_json, open_fit_json},
+      {"alta", "samples as text of the ALTA library, with its #DIM and #PARAM lines (read only)", recognises_alta, open_alta},
       {"csv", "samples as text: theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg, values and uncertainties", recognises_csv, open_csv,
-       write_samples_as_csv},
+       write_samples_as_csv, ".csv"},
   };
   return list;
 }
@@ -81,16 +118,18 @@ Opened open_brdf(const std::filesystem::path& path, const ReadOptions& options) 
 
   const std::vector<Format>& list = formats();
   if (options.format) {
-    const auto named = std::find_if(list.begin(), list.end(), [&](const Format& format) { return *options.format == format.name; });
+    const auto named =
+        std::find_if(list.begin(), list.end(), [&](const Format& format) { return format.open && *options.format == format.name; });
     if (named == list.end()) throw Error(ErrorKind::usage, {"--format", *options.format, "one of " + known_formats()});
-    return named->open(path, options);
+    return open_as(*named, path, options);
   }
   const std::string head = head_of(path);
-  const auto found = std::find_if(list.begin(), list.end(), [&](const Format& format) { return format.recognises(head, size); });
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const Format& format) { return format.recognises && format.recognises(head, size); });
   if (found == list.end())
     throw Error(ErrorKind::input, {path.string(), size == 0 ? "an empty file" : fmt::format("{} bytes of an unknown kind", size),
                                    "one of " + known_formats()});
-  return found->open(path, options);
+  return open_as(*found, path, options);
 }
 
 }  // namespace gonio::tabulated

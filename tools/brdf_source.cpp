@@ -18,6 +18,7 @@ void ReadFlags::add_to(CLI::App& app) {
   app.add_option("--in-plane", in_plane, "A file without azimuths: specular-positive or specular-negative");
   app.add_option("--missing", missing, "Rows whose channels are all exactly this are no measurement (default -1), or none");
   app.add_option("--merl-nodes", merl_nodes, "MERL: where the first node of a cell lies, left or centre");
+  app.add_option("--assume", assume, "KEY=VALUE: the answer to what the file does not say; the reader names what it needs")->take_all();
 }
 
 tabulated::MerlNodes merl_nodes_named(const std::string& text) {
@@ -30,9 +31,10 @@ tabulated::ReadOptions ReadFlags::options() const {
   tabulated::ReadOptions out;
   if (!format.empty()) {
     std::string known;
-    for (const auto& entry : tabulated::formats()) known += (known.empty() ? "" : ", ") + std::string(entry.name);
     const auto& list = tabulated::formats();
-    if (std::none_of(list.begin(), list.end(), [&](const auto& entry) { return format == entry.name; }))
+    for (const auto& entry : list)
+      if (entry.open) known += (known.empty() ? "" : ", ") + std::string(entry.name);
+    if (std::none_of(list.begin(), list.end(), [&](const auto& entry) { return entry.open && format == entry.name; }))
       throw Error(ErrorKind::usage, {"--format", "'" + format + "'", "one of " + known});
     out.format = format;
   }
@@ -57,6 +59,10 @@ tabulated::ReadOptions ReadFlags::options() const {
   else if (!missing.empty())
     out.missing = number_from(missing, "--missing");
   if (!merl_nodes.empty()) out.merl_nodes = merl_nodes_named(merl_nodes);
+  for (const std::string& text : assume) {
+    const auto [key, answer] = name_value(text, "--assume");
+    out.assume[key] = answer;
+  }
   return out;
 }
 

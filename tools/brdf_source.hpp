@@ -13,7 +13,7 @@ namespace gonio::tools {
 /// The reading flags shared by import, fit, check, export, eval and info.
 struct ReadFlags {
   std::string format, columns, quantity, blank, in_plane, missing, merl_nodes;
-  std::vector<std::string> set;
+  std::vector<std::string> set, assume;
 
   void add_to(CLI::App& app);
   /// Error(usage) for a value that no flag takes.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// gonio import and gonio export: from any readable format to any writable one.
+// gonio import: from any readable format to ours.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -47,27 +47,6 @@ int import_verb(const Arguments& arguments, Console& console) {
     if (const auto left_out = opened.dataset->provenance.find("columns_left_out"); left_out != opened.dataset->provenance.end())
       console.note(fmt::format("{}: columns left out: {}", in, left_out->second));
   format.write(opened, out, {});
-  report(console, in, out, format, opened);
-  return 0;
-}
-
-int export_verb(const Arguments& arguments, Console& console) {
-  CLI::App app("Writes a table or a fit as a renderer's format.", "export");
-  std::string in, out, to, nodes = "left";
-  ReadFlags flags;
-  app.add_option("FILE", in, "Any readable BRDF file, a fit.json included")->required();
-  app.add_option("--to", to, "Format to write: " + writable_formats())->required();
-  app.add_option("--out", out, "Output file")->required();
-  flags.add_to(app);
-  add_common(app, console);
-  if (!parse(app, arguments)) return 0;
-
-  const tabulated::Format& format = writable_format(to);
-  tabulated::WriteOptions options;
-  if (!flags.merl_nodes.empty()) options.merl_nodes = merl_nodes_named(flags.merl_nodes);
-  const tabulated::Opened opened = tabulated::open_brdf(in, flags.options());
-  console.note_masked(in, opened.masked);
-  format.write(opened, out, options);
   report(console, in, out, format, opened);
   return 0;
 }

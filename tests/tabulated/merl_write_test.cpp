@@ -28,7 +28,11 @@ double stored(const std::string& bytes, std::size_t plane, std::size_t cell) {
   return value;
 }
 
-WriteOptions on(MerlNodes nodes, int threads = 2) { return {.merl_nodes = nodes, .threads = threads}; }
+WriteOptions on(MerlNodes nodes, int threads = 2) {
+  WriteOptions options;
+  options.merl_nodes = nodes, options.threads = threads;
+  return options;
+}
 
 ReadOptions as(MerlNodes nodes) {
   ReadOptions options;

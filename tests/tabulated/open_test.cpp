@@ -34,11 +34,20 @@ TEST_CASE("What cannot be a BRDF is refused with what was found") {
   CHECK(faults_of([&] { open_brdf(scratch.file("x", "1 2 3"), options); }).find("usage|--format|tiff|one of ") == 0);
 }
 
-TEST_CASE("Every format has a name of its own, a description and a reader") {
+TEST_CASE("An answer to what a reader never asks is refused") {
+  const TemporaryFolder scratch;
+  ReadOptions options;
+  options.assume["moon"] = "full";
+  const auto samples = scratch.file("x.csv", "theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value\n30,0,40,180,1\n");
+  CHECK(faults_of([&] { open_brdf(samples, options); }).find("usage|--assume moon|") == 0);
+}
+
+TEST_CASE("Every format has a name of its own, a description, and a reader or a writer") {
   for (const Format& format : formats()) {
     CHECK(std::string(format.description).size() > 10);
-    CHECK(format.recognises != nullptr);
-    CHECK(format.open != nullptr);
+    CHECK((format.recognises == nullptr) == (format.open == nullptr));
+    CHECK((format.open || format.write));
+    if (format.write) CHECK(format.extension[0] == '.');
     CHECK(std::count_if(formats().begin(), formats().end(), [&](const Format& other) { return std::string(other.name) == format.name; }) ==
           1);
   }

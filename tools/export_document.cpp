@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/export_document.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdint>
+
+namespace gonio::tools {
+namespace {
+
+struct NamedCount {
+  const char* name;
+  const char* words;
+  std::size_t tabulated::ExportNotes::*count;
+};
+
+constexpr std::array counts{
+    NamedCount{"n_nodes", "nodes written", &tabulated::ExportNotes::n_nodes},
+    NamedCount{"n_below_horizon", "nodes of the grid below the horizon", &tabulated::ExportNotes::n_below_horizon},
+    NamedCount{"n_unknown", "nodes where nothing is known", &tabulated::ExportNotes::n_unknown},
+    NamedCount{"n_negative", "nodes with a negative value", &tabulated::ExportNotes::n_negative},
+    NamedCount{"n_extrapolated", "nodes beyond the samples", &tabulated::ExportNotes::n_extrapolated},
+};
+
+}  // namespace
+
+Json notes_document(const tabulated::ExportNotes& notes) {
+  Json files = Json::array(), facts = Json::object(), lost = Json::array();
+  for (const auto& file : notes.files) files.push_back(file.string());
+  for (const auto& [key, words] : notes.facts) facts.set(key, words);
+  for (const std::string& sentence : notes.lost) lost.push_back(sentence);
+  Json document = Json::object({{"files", std::move(files)}});
+  for (const NamedCount& entry : counts) document.set(entry.name, static_cast<std::int64_t>(notes.*entry.count));
+  document.set("facts", std::move(facts));
+  document.set("lost", std::move(lost));
+  return document;
+}
+
+std::vector<std::string> notes_lines(const tabulated::ExportNotes& notes) {
+  std::vector<std::string> out;
+  for (const auto& [key, words] : notes.facts) out.push_back(fmt::format("  {:<22} {}", key, words));
+  for (const NamedCount& entry : counts)
+    if (notes.*entry.count > 0) out.push_back(fmt::format("  {:<22} {}", entry.words, notes.*entry.count));
+  for (const std::string& sentence : notes.lost) out.push_back("  lost: " + sentence);
+  return out;
+}
+
+}  // namespace gonio::tools
