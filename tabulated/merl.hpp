@@ -24,17 +24,13 @@ bool recognises_merl(std::string_view head, std::uintmax_t size);
 /// The node rule is `options.merl_nodes`, else the sidecar's (`<path>.json`), else left.
 Opened open_merl(const std::filesystem::path& path, const ReadOptions& options);
 
-struct MerlWriteResult {
-  std::size_t below_horizon = 0;  ///< cells whose node has a direction at or below the horizon: no BRDF there
-  std::size_t unknown = 0;        ///< cells where the BRDF gave NaN
-  std::size_t negative = 0;       ///< cells with a negative value, which the format cannot hold
-};
-
-/// Tabulates a BRDF at the nodes and writes the file and its sidecar. Every cell counted in the result holds -1 in all channels.
-/// One channel is written to all three planes, three as they are. Throws Error(input) for another number of channels, an
-/// infinite value, or a file that cannot be written; then nothing is left behind.
-MerlWriteResult write_merl(const Brdf& brdf, const std::filesystem::path& path, const WriteOptions& options, const std::string& source,
-                           bool simulated);
+/// Tabulates a BRDF on the grid and writes the file and its sidecar: values at the nodes of `options.merl_nodes`, or, for readers that
+/// take the nearest cell, means over the cells (`options.merl_values`; the sidecar then names the centre as node). Cells without a
+/// known value, with a negative one and without a pair of directions above the horizon hold -1 in all channels. One channel is written
+/// to all three planes, three as they are. A BRDF that is not isotropic or not reciprocal is taken at phi_h = 0 and phi_d below 180°,
+/// which the notes say. Throws Error(input) for another number of channels, an infinite value, or a file that cannot be written; then
+/// nothing is left behind.
+ExportNotes write_merl(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);
 
 /// `<path>.json`, which says what the format cannot: the node rule.
 std::filesystem::path merl_sidecar(const std::filesystem::path& path);

@@ -73,7 +73,7 @@ std::size_t count_masked(const MerlPlanes& planes, const std::filesystem::path& 
 struct Sidecar {
   std::optional<MerlNodes> nodes;
   bool simulated = false;
-  std::string source;
+  std::string source, values;
 };
 
 Sidecar read_sidecar(const std::filesystem::path& path) {
@@ -94,6 +94,7 @@ Sidecar read_sidecar(const std::filesystem::path& path) {
     if (nodes == name(rule)) out.nodes = rule;
   if (!nodes.empty() && !out.nodes) faults.add(file.string() + "#/node_rule", excerpt(nodes), "left or centre");
   out.source = text("source");
+  out.values = text("values");
   const Json& simulated = document.get("context").get("simulated");
   out.simulated = simulated.is_bool() && simulated.boolean();
   faults.raise();
@@ -139,12 +140,15 @@ Opened open_merl(const std::filesystem::path& path, const ReadOptions& options) 
   out.brdf = table;
   out.simulated = sidecar.simulated;
   const char* said_by = options.merl_nodes ? "as asked" : sidecar.nodes ? "from the sidecar" : "by default, no sidecar";
-  out.info = {{"cells", fmt::format("90 x 90 x 180 (theta_h, theta_d, phi_d), {} masked", out.masked.missing)},
+  out.info = {{"holds", "f / scale, cosine not included"},
+              {"unit", "1/sr"},
+              {"cells", fmt::format("90 x 90 x 180 (theta_h, theta_d, phi_d), {} masked", out.masked.missing)},
               {"channels", joined_names(table->channels())},
               {"nodes", fmt::format("{} ({})", name(nodes), said_by)},
               {"colour", "linear, primaries undefined"},
               {"symmetry", words(table->symmetry())},
               {"simulated", out.simulated ? "yes" : "no"}};
+  if (!sidecar.values.empty()) out.info.emplace_back("values", sidecar.values == "cell_mean" ? "means over the cells" : "at the nodes");
   if (!sidecar.source.empty()) out.info.emplace_back("source", sidecar.source);
   return out;
 }

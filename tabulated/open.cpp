@@ -42,21 +42,6 @@ ExportNotes write_samples_as_exr(const Opened& opened, const std::filesystem::pa
   return notes;
 }
 
-ExportNotes write_brdf_as_merl(const Opened& opened, const std::filesystem::path& path, const WriteOptions& options) {
-  if (!opened.brdf)
-    throw Error(ErrorKind::input, {path.string(), fmt::format("a {} that cannot be evaluated", opened.format), "a model or a table"});
-  const MerlWriteResult result = write_merl(*opened.brdf, path, options, opened.format, opened.simulated);
-  ExportNotes notes{.files = {path, merl_sidecar(path)},
-                    .n_nodes = MerlGrid::cell_count - result.below_horizon,
-                    .n_below_horizon = result.below_horizon,
-                    .n_unknown = result.unknown,
-                    .n_negative = result.negative,
-                    .facts = {{"nodes", name(options.merl_nodes)}},
-                    .lost = {}};
-  if (result.unknown + result.negative > 0) notes.lost.emplace_back("cells with an unknown or negative value are marked -1: invalid");
-  return notes;
-}
-
 std::string known_formats() {
   std::string out;
   for (const Format& format : formats())
@@ -95,8 +80,7 @@ std::optional<std::string> ReadOptions::assumed(const std::string& key) const {
 const std::vector<Format>& formats() {
   // In the order of recognition: text comes last because anything readable could be it.
   static const std::vector<Format> list{
-      {"merl", "90 x 90 x 180 half/difference table of red, green, blue (.binary)", recognises_merl, open_merl, write_brdf_as_merl,
-       ".binary"},
+      {"merl", "90 x 90 x 180 half/difference table of red, green, blue (.binary)", recognises_merl, open_merl, write_merl, ".binary"},
       {"brdf-exr", "table of incident by outgoing directions as an OpenEXR file (.brdf.exr)", recognises_brdf_exr, open_brdf_exr,
        write_samples_as_exr, ".brdf.exr"},
       {"rgl", "material file of the RGL database, RGB or spectral (.bsdf, read only)", recognises_rgl, open_rgl},

@@ -21,6 +21,8 @@ namespace gonio::tabulated {
 
 /// Where the first node of MERL's cells lies: at the cell's left edge or in its centre. Readers and writers differ (see docs).
 enum class MerlNodes { left, centre };
+/// What a cell of a MERL file that is to be written holds: the value at its node, or the mean over the cell.
+enum class MerlValues { node, cell_mean };
 
 /// Sign of in-plane zenith angles of files without azimuths.
 enum class InPlane { specular_positive, specular_negative };
@@ -65,6 +67,7 @@ enum class GridSize { paper, standard, fine };
 
 struct WriteOptions {
   MerlNodes merl_nodes = MerlNodes::left;
+  MerlValues merl_values = MerlValues::node;
   GridSize size = GridSize::standard;
   /// Wanted mean relative error of what a reader of the file gets against the source: the writer takes the smallest grid that keeps it
   /// and notes the errors it chose from. Only for formats that are `adaptive`.

@@ -28,6 +28,12 @@ double error_named(const std::string& text) {
   return value;
 }
 
+tabulated::MerlValues merl_values_named(const std::string& text) {
+  if (text == "node") return tabulated::MerlValues::node;
+  if (text == "cell-mean") return tabulated::MerlValues::cell_mean;
+  throw Error(ErrorKind::usage, {"--merl-values", "'" + text + "'", "node or cell-mean"});
+}
+
 void report(Console& console, const std::string& in, const std::string& out, const tabulated::Format& format,
             const tabulated::Opened& opened, const tabulated::ExportNotes& notes) {
   if (console.json) {
@@ -47,13 +53,14 @@ void report(Console& console, const std::string& in, const std::string& out, con
 
 int export_verb(const Arguments& arguments, Console& console) {
   CLI::App app("Writes a table or a fit as a renderer's format.", "export");
-  std::string in, out, to, size = "standard", error;
+  std::string in, out, to, size = "standard", error, merl_values = "node";
   ReadFlags flags;
   app.add_option("FILE", in, "Any readable BRDF file, a fit.json included")->required();
   app.add_option("--to", to, "Format to write: " + writable_formats())->required();
   app.add_option("--out", out, "Output file")->required();
   app.add_option("--size", size, "How fine the grid is: paper, standard or fine");
   app.add_option("--error", error, "Take the smallest grid whose reader gets this mean relative error, such as 1%");
+  app.add_option("--merl-values", merl_values, "MERL: values at the nodes (node), or cell-mean for readers that take the nearest cell");
   flags.add_to(app);
   add_common(app, console);
   if (!parse(app, arguments)) return 0;
@@ -66,6 +73,7 @@ int export_verb(const Arguments& arguments, Console& console) {
     options.error = error_named(error);
   }
   if (!flags.merl_nodes.empty()) options.merl_nodes = merl_nodes_named(flags.merl_nodes);
+  options.merl_values = merl_values_named(merl_values);
   const tabulated::Opened opened = tabulated::open_brdf(in, flags.options());
   console.note_masked(in, opened.masked);
   const tabulated::ExportNotes notes = format.write(opened, out, options);

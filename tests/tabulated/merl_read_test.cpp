@@ -125,3 +125,20 @@ TEST_CASE("No damaged header or length does more than raise an error") {
   }
   SUCCEED();
 }
+
+TEST_CASE("Numbers that are none are found wherever they stand in the file") {
+  const TemporaryFolder scratch;
+  std::mt19937 random(20260704);
+  const double bad[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                        -std::numeric_limits<double>::infinity()};
+  for (int round = 0; round < 40; ++round) {
+    const auto path = zeros(scratch, "m.binary");
+    const std::size_t plane = random() % 3, cell = random() % MerlGrid::cell_count;
+    put(path, plane, cell, bad[round % 3]);
+    INFO("round " << round << " of seed 20260704");
+    const MerlCell at = MerlGrid::cell(cell);
+    CHECK(faults_of([&] { open_brdf(path); })
+              .find(fmt::format("cell theta_h {}, theta_d {}, phi_d {}|{} in plane {}|", at.theta_h, at.theta_d, at.phi_d, bad[round % 3],
+                                plane + 1)) != std::string::npos);
+  }
+}
