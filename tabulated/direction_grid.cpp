@@ -58,11 +58,11 @@ std::vector<GonioAngles> DirectionGrid::pairs() const {
   std::vector<GonioAngles> out;
   out.reserve(size());
   for (const double theta_i : theta_i_deg)
-    for (const double phi_i : phi_i_deg)
+    for (std::size_t i = 0; i < (theta_i == 0 ? 1 : phi_i_deg.size()); ++i)
       for (const double theta_o : theta_o_deg)
-        for (const double phi : phi_deg) {
-          const double phi_o = phi_i + phi;
-          out.push_back({degrees(theta_i), degrees(phi_i), degrees(theta_o), degrees(phi_o < 360 ? phi_o : phi_o - 360)});
+        for (std::size_t o = 0; o < (theta_o == 0 ? 1 : phi_deg.size()); ++o) {
+          const double phi_o = phi_i_deg[i] + phi_deg[o];
+          out.push_back({degrees(theta_i), degrees(phi_i_deg[i]), degrees(theta_o), degrees(phi_o < 360 ? phi_o : phi_o - 360)});
         }
   return out;
 }

@@ -19,7 +19,8 @@ struct DirectionGrid {
   std::vector<double> phi_deg;  ///< phi_o - phi_i; all of [0, 360) if the azimuths are a full turn, 0 to 180 with both ends if half of one
 
   std::size_t size() const noexcept { return theta_i_deg.size() * phi_i_deg.size() * theta_o_deg.size() * phi_deg.size(); }
-  /// Every pair, theta_i outermost, then phi_i, theta_o, phi_o. phi_o is phi_i + phi in [0, 360).
+  /// Every pair once, theta_i outermost, then phi_i, theta_o, phi_o: the normal has one azimuth only, so that there are a few less than
+  /// `size()`. phi_o is phi_i + phi in [0, 360).
   std::vector<GonioAngles> pairs() const;
 };
 

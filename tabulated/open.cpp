@@ -14,6 +14,7 @@
 #include "tabulated/fit_json.hpp"
 #include "tabulated/merl.hpp"
 #include "tabulated/rgl.hpp"
+#include "tabulated/samples_to_write.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -21,21 +22,21 @@ namespace {
 /// Enough to recognise any format.
 constexpr std::size_t head_size = 4096;
 
-ExportNotes write_samples_as_csv(const Opened& opened, const std::filesystem::path& path, const WriteOptions&) {
-  if (!opened.dataset)
-    throw Error(ErrorKind::input, {path.string(), fmt::format("a {} without samples", opened.format), "samples to write as csv"});
-  write_csv(*opened.dataset, path);
-  return {.files = {path}, .n_nodes = opened.dataset->size(), .facts = {}, .lost = {}};
+ExportNotes write_samples_as_csv(const Opened& opened, const std::filesystem::path& path, const WriteOptions& options) {
+  ExportNotes notes;
+  write_csv(*samples_to_write(opened, options, notes), path);
+  notes.files = {path};
+  return notes;
 }
 
-ExportNotes write_samples_as_exr(const Opened& opened, const std::filesystem::path& path, const WriteOptions&) {
-  if (!opened.dataset)
-    throw Error(ErrorKind::input, {path.string(), fmt::format("a {} without samples", opened.format), "samples to write as a table"});
-  const SampleTable table = tabulate(*opened.dataset);
+ExportNotes write_samples_as_exr(const Opened& opened, const std::filesystem::path& path, const WriteOptions& options) {
+  ExportNotes notes;
+  const SampleTable table = tabulate(*samples_to_write(opened, options, notes));
   write_brdf_exr(table, path);
-  ExportNotes notes{.files = {path}, .n_nodes = table.cell_count(), .facts = {}, .lost = {}};
+  notes.files = {path};
+  notes.n_nodes = table.cell_count(), notes.n_unknown = 0;
   for (std::size_t cell = 0; cell < table.cell_count(); ++cell) notes.n_unknown += table.is_empty(cell) ? 1 : 0;
-  notes.facts.emplace_back("grid", fmt::format("{} incident x {} outgoing directions", table.incident.size(), table.outgoing.size()));
+  notes.facts.emplace_back("table", fmt::format("{} incident x {} outgoing directions", table.incident.size(), table.outgoing.size()));
   if (notes.n_unknown > 0) notes.lost.emplace_back("directions without a sample are NaN");
   for (const std::string& column : table.dropped_columns)
     notes.lost.push_back(fmt::format("the column {} has no place in a table", column));
