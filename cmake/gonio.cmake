@@ -22,6 +22,10 @@ if(GONIO_SANITIZE)
   target_link_options(gonio_options INTERFACE -fsanitize=${GONIO_SANITIZE})
 endif()
 
+if(GONIO_FUZZ)
+  target_compile_options(gonio_options INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
 # gonio_library(<folder-name> SOURCES ... DEPENDS <gonio libraries> PRIVATE <third parties>)
 function(gonio_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE" ${ARGN})

@@ -18,6 +18,7 @@
 
 #include "tabulated/brdf_exr.hpp"
 #include "tabulated/brdf_exr_channels.hpp"
+#include "tabulated/exr_header.hpp"
 #include "tabulated/fault_list.hpp"
 #include "tabulated/metadata.hpp"
 #include "tabulated/opened_samples.hpp"
@@ -30,7 +31,8 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 /// A file of parts, each looked up by name. Every fault goes into one list; what cannot be read comes back empty.
 class ExrParts {
  public:
-  ExrParts(const std::filesystem::path& path, FaultList& faults) : path_(path.string()), faults_(faults), file_(path_.c_str(), 0) {}
+  ExrParts(const std::filesystem::path& path, FaultList& faults)
+      : path_(path.string()), faults_(faults), file_(path_.c_str(), 0), file_size_(std::filesystem::file_size(path)) {}
 
   std::optional<int> part_named(const std::string& name) const {
     for (int k = 0; k < file_.parts(); ++k)
@@ -54,7 +56,9 @@ class ExrParts {
     }
     const Imath::Box2i& window = header.dataWindow();
     const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1, height = std::int64_t{window.max.y} - window.min.y + 1;
-    const auto limit = static_cast<std::int64_t>(max_table_cells);
+    // Deflate shrinks no text by more than 1032.
+    constexpr std::uintmax_t largest_compression = 1032;
+    const auto limit = static_cast<std::int64_t>(std::min<std::uintmax_t>(max_table_cells, file_size_ * largest_compression));
     if (window.min != Imath::V2i(0, 0) || width < 1 || height < 1 || width > limit || height > limit / width) {
       faults_.add(where(name), fmt::format("{} x {} pixels from ({}, {})", width, height, window.min.x, window.min.y),
                   fmt::format("at most {} pixels from (0, 0)", limit));
@@ -87,6 +91,7 @@ class ExrParts {
   std::string path_;
   FaultList& faults_;
   Imf::MultiPartInputFile file_;
+  std::uintmax_t file_size_;
 };
 
 Metadata metadata_of(const Imf::Header& header, const std::string& where, FaultList& faults) {
@@ -222,6 +227,7 @@ SampleTable read_brdf_exr(const std::filesystem::path& path) {
   // Before the library allocates by what a header claims.
   constexpr auto limit = static_cast<int>(max_table_directions);
   Imf::Header::setMaxImageSize(limit, limit);
+  require_sound_exr_header(path);
   FaultList faults(path.string());
   try {
     return read_parts(path, faults);

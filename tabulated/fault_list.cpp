@@ -18,7 +18,7 @@ void FaultList::add_at(std::size_t line, std::string found, std::string wanted) 
 void FaultList::raise() const {
   if (empty()) return;
   std::vector<Fault> faults = faults_;
-  if (count_ > shown) faults.push_back({file_, fmt::format("and {} more faults", count_ - shown), ""});
+  if (count_ > shown) faults.push_back({fmt::format("{}: {} more faults", file_, count_ - shown), "", ""});
   if (faults.size() == 1) throw Error(ErrorKind::input, faults.front());
   throw Error(ErrorKind::input, fmt::format("{} cannot be used: {} faults", file_, count_), faults);
 }
