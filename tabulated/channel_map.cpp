@@ -121,6 +121,27 @@ ChannelMap map_to_spectrum(const Channels& from) {
   return out;
 }
 
+ChannelMap map_to_xyz(const Channels& from) {
+  if (are_named(from, {"X", "Y", "Z"})) return unchanged(from, {0, 1, 2});
+  const ChannelMap rgb = map_to_rgb(from);
+  // The inverse of the matrix by its cofactors.
+  const auto& m = rgb_from_xyz();
+  const auto cofactor = [&](std::size_t row, std::size_t column) {
+    const std::size_t r1 = (row + 1) % 3, r2 = (row + 2) % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3;
+    return m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1];
+  };
+  const double determinant = m[0][0] * cofactor(0, 0) + m[0][1] * cofactor(0, 1) + m[0][2] * cofactor(0, 2);
+  ChannelMap out{.to = Channels(3), .weights = std::vector<double>(3 * from.size()), .changed = rgb.changed};
+  for (std::size_t xyz = 0; xyz < 3; ++xyz) {
+    out.to[xyz].name = std::string(1, "XYZ"[xyz]);
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < from.size(); ++k)
+        out.weights[xyz * from.size() + k] += cofactor(c, xyz) / determinant * rgb.weights[c * from.size() + k];
+  }
+  out.changed += (rgb.changed.empty() ? "" : "; ") + std::string("red, green, blue, taken as linear sRGB, are written as X, Y, Z");
+  return out;
+}
+
 ChannelMap map_to_luminance(const Channels& from) {
   const ChannelMap rgb = map_to_rgb(from);
   Channels y = single_channel("Y");

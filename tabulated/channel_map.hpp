@@ -25,6 +25,8 @@ ChannelMap map_to_rgb(const Channels& from);
 /// To wavelengths in increasing order: as they are; red, green and blue by smooth spectra (tabulated/rgb_to_spectrum.hpp); one channel as a
 /// constant from 360 to 830 nm. Throws Error(input) for other channels, for fluorescence and for a wavelength that occurs twice.
 ChannelMap map_to_spectrum(const Channels& from);
+/// To tristimulus values X, Y, Z with Y = 1 for a white surface under D65: as they are; what `map_to_rgb` takes, by the matrix of sRGB.
+ChannelMap map_to_xyz(const Channels& from);
 /// To one channel Y, the luminance relative to a white surface under D65.
 ChannelMap map_to_luminance(const Channels& from);
 

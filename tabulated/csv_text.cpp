@@ -131,4 +131,12 @@ void append_number(std::string& out, double value) {
   out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
 }
 
+double in_float_digits(double value) {
+  if (!std::isfinite(value)) return value;
+  char buffer[32];  // the longest shortest form of a float has 15 characters
+  const char* end = std::to_chars(buffer, buffer + sizeof buffer, static_cast<float>(value)).ptr;
+  std::from_chars(buffer, end, value);
+  return value;
+}
+
 }  // namespace gonio::tabulated

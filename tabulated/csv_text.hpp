@@ -51,4 +51,7 @@ Number parse_number(std::string_view field);
 /// Appends the shortest text that reads back to the same double; `nan` for NaN.
 void append_number(std::string& out, double value);
 
+/// The number with the fewest decimal digits that single precision cannot tell from `value`: what to store where a text shall be short.
+double in_float_digits(double value);
+
 }  // namespace gonio::tabulated

@@ -15,6 +15,7 @@
 #include "tabulated/merl.hpp"
 #include "tabulated/rgl.hpp"
 #include "tabulated/samples_to_write.hpp"
+#include "tabulated/zemax.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -86,6 +87,14 @@ const std::vector<Format>& formats() {
        write_samples_as_exr, ".brdf.exr"},
       {"rgl", "material file of the RGL database, RGB or spectral (.bsdf, read only)", recognises_rgl, open_rgl},
       {"fit-json", "the document of a fit, as the model it describes (read only)", recognises_fit_json, open_fit_json},
+      {"zemax",
+       "tabular scatter file of OpticStudio, angles about the specular direction (.bsdf)",
+       recognises_zemax,
+       open_zemax,
+       write_zemax,
+       ".bsdf",
+       false,
+       {"rotation", "wavelength_nm"}},
       {"alta", "samples as text of the ALTA library, with its #DIM and #PARAM lines (read only)", recognises_alta, open_alta},
       {"csv", "samples as text: theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg, values and uncertainties", recognises_csv, open_csv,
        write_samples_as_csv, ".csv"},
