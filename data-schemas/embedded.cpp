@@ -48,6 +48,8 @@ const char* name(Schema schema) noexcept {
     case Schema::choice: return "choice";
     case Schema::compare: return "compare";
     case Schema::statistics: return "statistics";
+    case Schema::bird_brdf: return "bird-brdf";
+    case Schema::openmaterial_brdf: return "openmaterial-brdf";
   }
   return "";
 }

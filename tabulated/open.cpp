@@ -9,6 +9,7 @@
 
 #include "brdf/error.hpp"
 #include "tabulated/alta.hpp"
+#include "tabulated/bird.hpp"
 #include "tabulated/brdf_exr.hpp"
 #include "tabulated/csv.hpp"
 #include "tabulated/fit_json.hpp"
@@ -86,6 +87,14 @@ const std::vector<Format>& formats() {
       {"brdf-exr", "table of incident by outgoing directions as an OpenEXR file (.brdf.exr)", recognises_brdf_exr, open_brdf_exr,
        write_samples_as_exr, ".brdf.exr"},
       {"rgl", "material file of the RGL database, RGB or spectral (.bsdf, read only)", recognises_rgl, open_rgl},
+      {"bird-json",
+       "rows of f with uncertainties in the universal BRDF data format of the BiRD project (JSON)",
+       recognises_bird,
+       open_bird,
+       write_bird,
+       ".json",
+       false,
+       {"coverage_factor"}},
       {"fit-json", "the document of a fit, as the model it describes (read only)", recognises_fit_json, open_fit_json},
       {"zemax",
        "tabular scatter file of OpticStudio, angles about the specular direction (.bsdf)",
