@@ -13,6 +13,7 @@
 #include "tabulated/brdf_exr.hpp"
 #include "tabulated/csv.hpp"
 #include "tabulated/fit_json.hpp"
+#include "tabulated/lighttools.hpp"
 #include "tabulated/merl.hpp"
 #include "tabulated/rgl.hpp"
 #include "tabulated/samples_to_write.hpp"
@@ -104,6 +105,14 @@ const std::vector<Format>& formats() {
        ".bsdf",
        false,
        {"rotation", "wavelength_nm"}},
+      {"lighttools",
+       "tabular scatter file of LightTools, absolute angles (.bsdf; writer untested with the program itself)",
+       recognises_lighttools,
+       open_lighttools,
+       write_lighttools,
+       ".bsdf",
+       false,
+       {"side", "scatter"}},
       {"alta", "samples as text of the ALTA library, with its #DIM and #PARAM lines (read only)", recognises_alta, open_alta},
       {"csv", "samples as text: theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg, values and uncertainties", recognises_csv, open_csv,
        write_samples_as_csv, ".csv"},

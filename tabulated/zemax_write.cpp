@@ -7,11 +7,10 @@
 
 #include "brdf/error.hpp"
 #include "data-schemas/write_file.hpp"
-#include "tabulated/channel_map.hpp"
 #include "tabulated/csv_text.hpp"
-#include "tabulated/node_values.hpp"
 #include "tabulated/radial_grid.hpp"
 #include "tabulated/total_scatter.hpp"
+#include "tabulated/values_to_write.hpp"
 #include "tabulated/zemax.hpp"
 
 namespace gonio::tabulated {
@@ -77,16 +76,10 @@ std::string tis_difference(const ZemaxTable& table) {
   return out;
 }
 
-/// One channel stays; the format knows X, Y, Z beside it.
-ChannelMap map_of(const Channels& channels) {
-  if (channels.size() > 1) return map_to_xyz(channels);
-  return {.to = channels, .weights = {1}, .changed = {}};
-}
-
 SpecularGrid grid_for(const Opened& source, const WriteOptions& options) {
   SpecularGrid grid;
   const Symmetry symmetry = source.brdf->symmetry();
-  if (source.dataset) grid.side = source.dataset->side;
+  grid.side = side_of(source);
   grid.mirrored = symmetry.isotropic && symmetry.bilateral;
   const double step = options.size == GridSize::paper ? 15 : options.size == GridSize::standard ? 10 : 5;
   grid.rotation_deg = symmetry.isotropic ? std::vector<double>{0} : even_angles(0, 360, options.size == GridSize::fine ? 10 : 30);
@@ -113,11 +106,10 @@ ExportNotes write_zemax(const Opened& source, const std::filesystem::path& path,
   }
   if (!source.brdf)
     throw Error(ErrorKind::input, {path.string(), fmt::format("a {} that cannot be evaluated", source.format), "a model or a table"});
-  const ChannelMap map = map_of(source.brdf->channels());
-  if (!map.changed.empty()) notes.lost.push_back(map.changed);
+  const ChannelMap map = one_channel_or_xyz(source.brdf->channels());
   SpecularGrid grid = grid_for(source, options);
 
-  std::vector<Direction> wi, wo;
+  std::vector<GonioAngles> poses;
   std::vector<std::size_t> index;
   for (std::size_t p = 0; p < grid.rotation_deg.size(); ++p)
     for (std::size_t i = 0; i < grid.incidence_deg.size(); ++i)
@@ -125,22 +117,20 @@ ExportNotes write_zemax(const Opened& source, const std::filesystem::path& path,
         for (std::size_t r = 0; r < grid.radial_deg.size(); ++r) {
           const GonioAngles node = grid.angles(p, i, a, r);
           if (grid.beyond_horizon(node)) continue;
-          wi.push_back(node.wi()), wo.push_back(node.wo()), index.push_back(grid.index(p, i, a, r));
+          poses.push_back(node), index.push_back(grid.index(p, i, a, r));
         }
   notes.n_below_horizon = grid.size() - index.size();
-  const NodeValues nodes = node_values(source, wi, wo, options.threads, notes);
-  std::vector<double> mapped(map.to.size());
+  const auto known = values_to_write(source, poses, map, options.threads, notes);
   std::vector<std::vector<double>> values(map.to.size(), std::vector<double>(grid.size(), 0.0));
-  for (std::size_t k = 0; k < index.size(); ++k) {
-    map.apply(nodes.f.data() + k * nodes.channel_count, mapped.data());
-    for (std::size_t c = 0; c < mapped.size(); ++c) values[c][index[k]] = mapped[c] > 0 ? in_float_digits(mapped[c]) : 0;  // NaN is not > 0
-  }
+  for (std::size_t c = 0; c < known.size(); ++c)
+    for (std::size_t k = 0; k < index.size(); ++k) values[c][index[k]] = known[c][k] > 0 ? known[c][k] : 0;  // NaN is not > 0
   ZemaxRemarks remarks;
   remarks.comments = {fmt::format(" written by gonio from {}", source.format)};
   if (grid.rotation_deg.size() > 1) remarks.comments.emplace_back(zemax_rotation_comment);
   if (map.to.size() == 1 && map.to[0].wavelength_in_nm)
     remarks.comments.push_back(fmt::format(" {}{}", zemax_wavelength_comment, *map.to[0].wavelength_in_nm));
   remarks.tis.resize(map.to.size());
+  std::vector<double> mapped(map.to.size());
   for (std::size_t p = 0; p < grid.rotation_deg.size(); ++p)
     for (const double incidence : grid.incidence_deg) {
       const Angle phi_i = grid.angles(p, 0, 0, 0).phi_i;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tabulated/values_to_write.hpp"
+
+#include "tabulated/opened_samples.hpp"
+
+#include "tests/check.hpp"
+
+using namespace gonio;
+using namespace gonio::tabulated;
+
+namespace {
+
+Dataset product(std::initializer_list<double> theta_o, std::initializer_list<double> phi) {
+  Dataset out;
+  out.channels = single_channel("value");
+  out.symmetry.isotropic = true;
+  out.f.resize(1);
+  for (const double theta_i : {0.0, 30.0})
+    for (const double theta : theta_o)
+      for (const double azimuth : phi) {
+        if (theta == 0 && azimuth != *phi.begin()) continue;
+        out.angles.push_back({degrees(theta_i), 90_deg, degrees(theta), degrees(azimuth + 90)});
+        out.f[0].push_back(1);
+      }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("Samples that are a product of angles are known as one, whatever the azimuth of the light; with a gap they are none") {
+  const Dataset samples = product({0, 20, 40}, {0, 90, 180, 270});
+  const auto grid = grid_of_samples(samples);
+  REQUIRE(grid);
+  CHECK(grid->theta_o_deg == std::vector<double>{0, 20, 40});
+  CHECK(grid->phi_deg == std::vector<double>{0, 90, 180, 270});
+  Dataset gap = samples;
+  gap.angles.pop_back(), gap.f[0].pop_back();
+  CHECK_FALSE(grid_of_samples(gap));
+  Dataset twice = samples;
+  twice.angles.back() = twice.angles.front();
+  CHECK_FALSE(grid_of_samples(twice));
+  CHECK_FALSE(grid_of_samples(Dataset()));
+}
+
+TEST_CASE("Values come out per channel of the file, negative ones kept, with what the map changes") {
+  Dataset samples = product({0, 20}, {0, 180});
+  samples.channels = rgb_channels();
+  samples.f = {samples.f[0], std::vector<double>(samples.size(), 2.0), std::vector<double>(samples.size(), -3.0)};
+  const Opened source = opened_samples("csv", std::make_shared<const Dataset>(samples));
+  ExportNotes notes;
+  const auto luminance = values_to_write(source, samples.angles, one_channel(source.brdf->channels()), 1, notes);
+  REQUIRE(luminance.size() == 1);
+  CHECK(std::abs(luminance[0][0] - (0.2126 + 2 * 0.7152 - 3 * 0.0722)) < 1e-6);
+  CHECK(notes.n_negative == samples.size());
+  CHECK(notes.lost.size() == 1);
+}
