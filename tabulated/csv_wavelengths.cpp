@@ -3,19 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <limits>
 #include <map>
 #include <utility>
 
+#include "tabulated/row_samples.hpp"
+
 namespace gonio::tabulated {
 namespace {
-
-using Pose = std::array<double, 4>;
-
-Pose pose_of(const GonioAngles& angles) {
-  return {angles.theta_i.radians(), angles.phi_i.radians(), angles.theta_o.radians(), angles.phi_o.radians()};
-}
 
 Channel channel_at(double wavelength_nm) {
   Channel out;
@@ -36,32 +30,22 @@ Dataset channels_by_wavelength(Dataset flat, const std::vector<double>& waveleng
 
   std::map<double, std::size_t> channel_of;
   for (const double wavelength : wavelength_nm) channel_of.emplace(wavelength, 0);
-  Dataset out = flat;
-  out.channels.clear();
-  out.angles.clear();
+  Channels channels;
   for (auto& [wavelength, channel] : channel_of) {
-    channel = out.channels.size();
-    out.channels.push_back(channel_at(wavelength));
+    channel = channels.size();
+    channels.push_back(channel_at(wavelength));
   }
-  out.f.assign(out.channels.size(), {});
-  if (flat.has_uncertainty()) out.u.assign(out.channels.size(), {});
-
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  std::map<Pose, std::vector<std::size_t>> samples_at;          // in order of repetition
-  std::map<std::pair<Pose, std::size_t>, std::size_t> repeats;  // of a pose in a channel
+  std::vector<ValueRow> rows;
   for (std::size_t k = 0; k < flat.size(); ++k) {
-    const Pose pose = pose_of(flat.angles[k]);
-    const std::size_t channel = channel_of[wavelength_nm[k]], repeat = repeats[{pose, channel}]++;
-    std::vector<std::size_t>& samples = samples_at[pose];
-    if (repeat == samples.size()) {
-      samples.push_back(out.angles.size());
-      out.angles.push_back(flat.angles[k]);
-      for (auto* columns : {&out.f, &out.u})
-        for (auto& column : *columns) column.push_back(unknown);
-    }
-    out.f[channel][samples[repeat]] = flat.f[0][k];
-    if (flat.has_uncertainty()) out.u[channel][samples[repeat]] = flat.u[0][k];
+    rows.push_back({flat.angles[k], channel_of[wavelength_nm[k]], flat.f[0][k]});
+    if (flat.has_uncertainty()) rows.back().u = flat.u[0][k];
   }
+  Dataset samples = samples_of_rows(rows, std::move(channels)).samples;
+  Dataset out = std::move(flat);
+  out.channels = std::move(samples.channels);
+  out.angles = std::move(samples.angles);
+  out.f = std::move(samples.f);
+  out.u = std::move(samples.u);
   return out;
 }
 

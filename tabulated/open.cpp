@@ -15,6 +15,7 @@
 #include "tabulated/fit_json.hpp"
 #include "tabulated/lighttools.hpp"
 #include "tabulated/merl.hpp"
+#include "tabulated/openmaterial.hpp"
 #include "tabulated/rgl.hpp"
 #include "tabulated/samples_to_write.hpp"
 #include "tabulated/zemax.hpp"
@@ -96,6 +97,14 @@ const std::vector<Format>& formats() {
        ".json",
        false,
        {"coverage_factor"}},
+      {"openmaterial-json",
+       "look-up table of an isotropic BRDF of ASAM OpenMATERIAL 3D (JSON, _brdf.xompt)",
+       recognises_openmaterial,
+       open_openmaterial,
+       write_openmaterial,
+       ".xompt",
+       false,
+       {"specular_azimuth_deg"}},
       {"fit-json", "the document of a fit, as the model it describes (read only)", recognises_fit_json, open_fit_json},
       {"zemax",
        "tabular scatter file of OpticStudio, angles about the specular direction (.bsdf)",
