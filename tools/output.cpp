@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "tools/renderer_targets.hpp"
+
 namespace gonio::tools {
 namespace {
 
@@ -92,14 +94,16 @@ std::string place_text(const fitting::Place& place) {
 
 std::string writable_formats() {
   std::string out;
-  for (const auto& format : tabulated::formats())
-    if (format.write) out += (out.empty() ? "" : ", ") + std::string(format.name);
+  for (const auto* list : {&tabulated::formats(), &renderer_formats()})
+    for (const auto& format : *list)
+      if (format.write) out += (out.empty() ? "" : ", ") + std::string(format.name);
   return out;
 }
 
 const tabulated::Format& writable_format(const std::string& name) {
-  for (const auto& format : tabulated::formats())
-    if (format.write && name == format.name) return format;
+  for (const auto* list : {&tabulated::formats(), &renderer_formats()})
+    for (const auto& format : *list)
+      if (format.write && name == format.name) return format;
   throw Error(ErrorKind::usage, {"--to", "'" + name + "'", "one of " + writable_formats()});
 }
 

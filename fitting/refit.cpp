@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fitting/refit.hpp"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "brdf/coordinates.hpp"
+#include "brdf/error.hpp"
+
+namespace gonio::fitting {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double widest_deg = 80;           ///< beyond, models part and instruments see nothing
+constexpr std::size_t most_samples = 8192;  ///< of a data set; several times what a dozen parameters need
+constexpr double known_enough = 0.999;      ///< part of an incidence's weight that must be known for its albedo
+constexpr std::array incidence_deg{0.0, 30.0, 60.0};
+
+struct Midpoint {
+  double at, width;
+};
+Midpoint midpoint(int k, int n, double range) { return {(k + 0.5) * range / n, range / n}; }
+/// theta_h = range u², u at midpoints.
+Midpoint root_midpoint(int k, int n, double range) {
+  const double u = (k + 0.5) / n;
+  return {range * u * u, 2 * range * u / n};
+}
+
+void add(RefitData& data, const std::vector<double>& f, const Direction& wi, const Direction& wo, double weight) {
+  if (!std::all_of(f.begin(), f.end(), [](double v) { return std::isfinite(v); })) return;
+  data.wi.push_back(wi), data.wo.push_back(wo), data.weight.push_back(weight);
+  for (const double value : f) data.f.push_back(std::max(0.0, value));
+}
+
+void add_grid(RefitData& data, const Brdf& source) {
+  const int nh = data.isotropic ? 24 : 16, nd = data.isotropic ? 12 : 8, np = 8, nx = data.isotropic ? 1 : 8;
+  const double lowest = degrees(widest_deg).cos();
+  for (int a = 0; a < nh; ++a)
+    for (int b = 0; b < nd; ++b)
+      for (int c = 0; c < np; ++c)
+        for (int d = 0; d < nx; ++d) {
+          const Midpoint th = root_midpoint(a, nh, pi / 2), td = midpoint(b, nd, pi / 2), pd = midpoint(c, np, 2 * pi),
+                         ph = midpoint(d, nx, 2 * pi);
+          // Away from planes of symmetry, in which a grid would see only one half of an odd function.
+          const double turn = data.isotropic ? 0 : ph.at;
+          const auto [wi, wo] = directions(HalfDifference{radians(th.at), radians(turn), radians(td.at), radians(pd.at)});
+          if (!(wi.z() >= lowest && wo.z() >= lowest)) continue;
+          const double measure = 4 * std::cos(td.at) * std::sin(th.at) * th.width * std::sin(td.at) * td.width * pd.width * ph.width;
+          add(data, source.eval(wi, wo), wi, wo, measure * wi.z() * wo.z());
+        }
+}
+
+void add_samples(RefitData& data, const Dataset& samples) {
+  const std::size_t every = std::max<std::size_t>(1, (samples.size() + most_samples - 1) / most_samples);
+  const double lowest = degrees(widest_deg).cos();
+  std::vector<double> f(data.channel_count);
+  for (std::size_t k = 0; k < samples.size(); k += every) {
+    const Direction wi = samples.angles[k].wi(), wo = samples.angles[k].wo();
+    if (!(wi.z() >= lowest && wo.z() >= lowest)) continue;
+    for (std::size_t c = 0; c < f.size(); ++c) f[c] = samples.f[c][k];
+    add(data, f, wi, wo, 1);
+  }
+}
+
+/// Whether the light came from one azimuth only: such samples say nothing about anisotropy.
+bool one_azimuth(const Dataset& samples) {
+  constexpr double same = 1e-6;  // degrees
+  return std::all_of(samples.angles.begin(), samples.angles.end(), [&](const GonioAngles& a) {
+    return a.theta_i.sin() < same || std::abs((a.phi_i - samples.angles.front().phi_i).degrees()) < same;
+  });
+}
+
+void add_incidence(RefitData& data, const Brdf& source, double theta_deg) {
+  constexpr int nh = 64, np = 48;
+  RefitData::Incidence out;
+  // A quarter of a degree off the axes: no node lies where atan2 of a table jumps.
+  out.wi = Direction::spherical(degrees(theta_deg), degrees(0.25));
+  std::vector<double> sum(data.channel_count);
+  double known = 0, all = 0;
+  for (int a = 0; a < nh; ++a)
+    for (int b = 0; b < np; ++b) {
+      const Midpoint th = root_midpoint(a, nh, pi / 2), ph = midpoint(b, np, 2 * pi);
+      const Direction h = Direction::spherical(radians(th.at), radians(ph.at));
+      const double c = dot(out.wi, h);
+      const double x = 2 * c * h.x() - out.wi.x(), y = 2 * c * h.y() - out.wi.y(), z = 2 * c * h.z() - out.wi.z();
+      if (!(c > 0 && z > 0)) continue;
+      const Direction wo = Direction::trusted(x, y, z);
+      const double weight = 4 * c * std::sin(th.at) * th.width * ph.width * z;
+      const std::vector<double> f = source.eval(out.wi, wo);
+      all += weight;
+      if (!std::all_of(f.begin(), f.end(), [](double v) { return std::isfinite(v); })) continue;
+      known += weight;
+      out.wo.push_back(wo), out.weight.push_back(weight);
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight * f[k];
+    }
+  const bool enough = all > 0 && known >= known_enough * all;
+  out.albedo = enough ? sum : std::vector<double>(sum.size(), std::numeric_limits<double>::quiet_NaN());
+  data.incidences.push_back(std::move(out));
+}
+
+double lit(double f, double cos_o) { return std::log(f * cos_o + dark_floor); }
+
+/// The residuals of all pairs and channels as a function of the free parameters.
+class Residuals final : public ceres::CostFunction {
+ public:
+  /// A free parameter: its place in the formula and, of one per channel, the channel.
+  struct Free {
+    std::size_t parameter;
+    std::optional<std::size_t> channel;
+  };
+
+  Residuals(const RefitData& data, const TargetFormula& formula, ChannelValues base, std::vector<Free> free)
+      : data_(data), formula_(formula), base_(std::move(base)), free_(std::move(free)) {
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(free_.size()));
+    set_num_residuals(static_cast<int>(data.f.size()));
+    for (std::size_t k = 0; k < data.size(); ++k)
+      for (std::size_t c = 0; c < data.channel_count; ++c) target_.push_back(lit(data.f[k * data.channel_count + c], data.wo[k].z()));
+    scale_ = 1 / std::sqrt(static_cast<double>(target_.size()));
+  }
+
+  ChannelValues values(const double* x) const {
+    ChannelValues out = base_;
+    for (std::size_t j = 0; j < free_.size(); ++j)
+      for (std::size_t c = 0; c < out.size(); ++c)
+        if (!free_[j].channel || *free_[j].channel == c) out[c][free_[j].parameter] = x[j];
+    return out;
+  }
+
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+    const ChannelValues at = values(x[0]);
+    logs(at, residuals);
+    for (std::size_t r = 0; r < target_.size(); ++r) residuals[r] = scale_ * (residuals[r] - target_[r]);
+    if (jacobians && jacobians[0]) differentiate(at, jacobians[0]);
+    return std::all_of(residuals, residuals + target_.size(), [](double r) { return std::isfinite(r); });
+  }
+
+ private:
+  void logs(const ChannelValues& values, double* out) const {
+    const EvaluateFormula evaluate = formula_.prepare(values);
+    const std::size_t n = data_.channel_count;
+    for (std::size_t k = 0; k < data_.size(); ++k) {
+      evaluate(data_.wi[k], data_.wo[k], out + k * n);
+      for (std::size_t c = 0; c < n; ++c) out[k * n + c] = lit(std::max(0.0, out[k * n + c]), data_.wo[k].z());
+    }
+  }
+
+  /// Central differences, one-sided at a bound. A parameter per channel is moved in all channels at once: channels do not mix.
+  void differentiate(const ChannelValues& at, double* jacobian) const {
+    const std::size_t n = data_.channel_count, columns = free_.size();
+    std::fill(jacobian, jacobian + target_.size() * columns, 0.0);
+    std::vector<double> above(target_.size()), below(target_.size()), step(n);
+    for (std::size_t p = 0; p < formula_.parameters.size(); ++p) {
+      const auto first = std::find_if(free_.begin(), free_.end(), [&](const Free& f) { return f.parameter == p; });
+      if (first == free_.end()) continue;
+      ChannelValues high = at, low = at;
+      for (std::size_t c = 0; c < n; ++c) {
+        const double h = 1e-5 * std::max(std::abs(at[c][p]), 1e-3);
+        high[c][p] = std::min(at[c][p] + h, formula_.parameters[p].upper);
+        low[c][p] = std::max(at[c][p] - h, formula_.parameters[p].lower);
+        step[c] = high[c][p] - low[c][p];
+      }
+      logs(high, above.data());
+      logs(low, below.data());
+      for (std::size_t r = 0; r < target_.size(); ++r) {
+        const std::size_t c = r % n;
+        const double slope = scale_ * (above[r] - below[r]) / step[c];
+        for (std::size_t j = 0; j < columns; ++j)
+          if (free_[j].parameter == p && (!free_[j].channel || *free_[j].channel == c)) jacobian[r * columns + j] = slope;
+      }
+    }
+  }
+
+  const RefitData& data_;
+  const TargetFormula& formula_;
+  ChannelValues base_;
+  std::vector<Free> free_;
+  std::vector<double> target_;
+  double scale_ = 1;
+};
+
+struct End {
+  ChannelValues values;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+End descend(const RefitData& data, const TargetFormula& formula, const ChannelValues& start, int iterations) {
+  std::vector<Residuals::Free> free;
+  std::vector<double> x;
+  ChannelValues base = start;
+  for (std::size_t p = 0; p < formula.parameters.size(); ++p) {
+    const FormulaParameter& parameter = formula.parameters[p];
+    if (data.isotropic && parameter.if_isotropic) {
+      for (auto& set : base) set[p] = *parameter.if_isotropic;
+      continue;
+    }
+    for (std::size_t c = 0; c < (parameter.per_channel ? base.size() : 1); ++c) {
+      free.push_back({p, parameter.per_channel ? std::optional(c) : std::nullopt});
+      x.push_back(std::clamp(base[c][p], parameter.lower, parameter.upper));
+    }
+  }
+  Residuals residuals(data, formula, base, free);
+  ceres::Problem::Options problem_options;
+  problem_options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(problem_options);
+  problem.AddResidualBlock(&residuals, nullptr, x.data());
+  for (std::size_t j = 0; j < free.size(); ++j) {
+    problem.SetParameterLowerBound(x.data(), static_cast<int>(j), formula.parameters[free[j].parameter].lower);
+    problem.SetParameterUpperBound(x.data(), static_cast<int>(j), formula.parameters[free[j].parameter].upper);
+  }
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = iterations;
+  options.function_tolerance = 1e-12;
+  options.parameter_tolerance = 1e-12;
+  options.gradient_tolerance = 1e-14;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return {residuals.values(x.data()), summary.IsSolutionUsable() ? summary.final_cost : std::numeric_limits<double>::infinity()};
+}
+
+constexpr int first_look = 12;   ///< iterations from every start
+constexpr int to_the_end = 100;  ///< from the best ends of the first look
+
+/// The best of the ends from several starts.
+End best_end(const RefitData& data, const TargetFormula& formula, const std::vector<ChannelValues>& starts) {
+  std::vector<End> ends;
+  for (const ChannelValues& start : starts) ends.push_back(descend(data, formula, start, first_look));
+  std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.cost < b.cost; });
+  End best = ends.front();
+  for (std::size_t k = 0; k < std::min<std::size_t>(2, ends.size()); ++k) {
+    End end = descend(data, formula, ends[k].values, to_the_end);
+    if (end.cost < best.cost) best = std::move(end);
+  }
+  return best;
+}
+
+}  // namespace
+
+RefitData refit_data(const Brdf& source, const Dataset* samples) {
+  RefitData data;
+  data.channel_count = source.channels().size();
+  data.isotropic = source.symmetry().isotropic || (samples && one_azimuth(*samples));
+  data.at_samples = samples != nullptr;
+  if (samples)
+    add_samples(data, *samples);
+  else
+    add_grid(data, source);
+  if (data.size() == 0)
+    throw Error(ErrorKind::input, {"source", "no value at zenith angles up to 80°", "a BRDF that is known somewhere above the surface"});
+  for (const double theta : incidence_deg) add_incidence(data, source, theta);
+  return data;
+}
+
+RefitErrors refit_errors(const RefitData& data, const EvaluateFormula& formula) {
+  const std::size_t n = data.channel_count;
+  std::vector<double> f(n);
+  double logs = 0, squares = 0, relative = 0, weights = 0;
+  for (std::size_t k = 0; k < data.size(); ++k) {
+    formula(data.wi[k], data.wo[k], f.data());
+    for (std::size_t c = 0; c < n; ++c) {
+      const double wanted = data.f[k * n + c], cos_o = data.wo[k].z();
+      const double log_gap = lit(std::max(0.0, f[c]), cos_o) - lit(wanted, cos_o), gap = (f[c] - wanted) * cos_o;
+      logs += log_gap * log_gap;
+      squares += gap * gap;
+      if (wanted > 0) relative += data.weight[k] * std::abs(f[c] - wanted) / wanted, weights += data.weight[k];
+    }
+  }
+  const double count = static_cast<double>(data.f.size());
+  RefitErrors out{std::sqrt(logs / count), weights > 0 ? relative / weights : 0, std::sqrt(squares / count), std::nullopt};
+  for (const RefitData::Incidence& incidence : data.incidences) {
+    std::vector<double> sum(n);
+    for (std::size_t k = 0; k < incidence.wo.size(); ++k) {
+      formula(incidence.wi, incidence.wo[k], f.data());
+      for (std::size_t c = 0; c < n; ++c) sum[c] += incidence.weight[k] * f[c];
+    }
+    for (std::size_t c = 0; c < n; ++c) {
+      const double gap = sum[c] - incidence.albedo[c];
+      if (std::isfinite(gap) && std::abs(gap) >= std::abs(out.albedo_difference.value_or(0))) out.albedo_difference = gap;
+    }
+  }
+  return out;
+}
+
+Refit refit(const RefitData& data, const TargetFormula& formula, const LobeSummary& summary) {
+  const std::vector<ChannelValues> starts = formula.starts(summary);
+  Refit out;
+  out.naive = starts.front();
+  out.naive_errors = refit_errors(data, formula.prepare(out.naive));
+  out.values = best_end(data, formula, starts).values;
+  out.errors = refit_errors(data, formula.prepare(out.values));
+  if (!(out.errors.log_rms <= out.naive_errors.log_rms)) out.values = out.naive, out.errors = out.naive_errors;
+  for (std::size_t p = 0; p < formula.parameters.size(); ++p) {
+    const FormulaParameter& parameter = formula.parameters[p];
+    if (data.isotropic && parameter.if_isotropic) continue;
+    const double near = 1e-9 * (parameter.upper - parameter.lower);
+    if (std::any_of(out.values.begin(), out.values.end(),
+                    [&](const auto& set) { return set[p] <= parameter.lower + near || set[p] >= parameter.upper - near; }))
+      out.at_bound.push_back(p);
+  }
+  return out;
+}
+
+LobeSummary fitted_summary(const RefitData& data, const TargetFormula& reference, LobeSummary (*summarise)(const ChannelValues&)) {
+  const std::size_t n = data.channel_count;
+  LobeSummary guess;
+  std::vector<double> sorted(data.size());
+  for (std::size_t c = 0; c < n; ++c) {
+    for (std::size_t k = 0; k < data.size(); ++k) sorted[k] = data.f[k * n + c];
+    std::sort(sorted.begin(), sorted.end());
+    guess.rho_d.push_back(std::min(1.0, pi * sorted[sorted.size() / 4]));
+    guess.f0.push_back(0.05);
+    guess.f90.push_back(1);
+  }
+  std::vector<ChannelValues> starts;
+  for (const double alpha : {0.03, 0.1, 0.3, 0.7}) {
+    guess.alpha_x = guess.alpha_y = alpha;
+    for (const double f0 : {0.05, 0.5}) {
+      guess.f0.assign(n, f0);
+      starts.push_back(reference.starts(guess).front());
+    }
+  }
+  return summarise(best_end(data, reference, starts).values);
+}
+
+}  // namespace gonio::fitting
