@@ -39,6 +39,9 @@ class MarginalWarp {
   /// `density` is [slice][row][column], finite and >= 0; rows and columns >= 2. A slice whose `integral` is 0 must not be given.
   MarginalWarp(std::vector<float> density, std::size_t rows, std::size_t columns);
 
+  /// What it was made from.
+  const std::vector<float>& density() const noexcept { return density_; }
+
   /// Where a point goes under the map that makes the density uniform. NaN in x where the whole row has no density: nothing was there.
   UnitPoint invert(const SliceWeights& slices, UnitPoint at) const noexcept;
   /// The inverse of `invert` in one slice. Points are drawn in from the border by 6e-8, as those who write such files do.

@@ -93,11 +93,6 @@ class FieldReader {
   FaultList& faults_;
 };
 
-struct Contents {
-  RglArrays arrays;
-  std::string description;
-};
-
 void check_angles(const RglArrays& arrays, const FieldReader& fields, FaultList& faults) {
   constexpr double rounding_to_float = 1e-6;
   for (std::size_t k = 0; k < arrays.theta_i.size(); ++k) {
@@ -121,16 +116,17 @@ Channels spectral_channels(const std::vector<float>& wavelengths_nm) {
   return out;
 }
 
-Contents read_contents(const std::filesystem::path& path) {
+}  // namespace
+
+RglArrays read_rgl(const std::filesystem::path& path) {
   const MappedFile file(path);
   FaultList faults(path.string());
   const std::vector<Tensor> tensors = read_tensors(file.bytes(), faults);
   if (tensors.empty()) faults.raise();
 
   FieldReader fields(tensors, faults);
-  Contents out;
-  RglArrays& arrays = out.arrays;
-  if (const Tensor* description = fields.take("description", TensorType::u8, 1)) out.description = description->text();
+  RglArrays arrays;
+  if (const Tensor* description = fields.take("description", TensorType::u8, 1)) arrays.description = description->text();
   if (const Tensor* jacobian = fields.take("jacobian", TensorType::u8, 1); jacobian && jacobian->bytes.front() != std::byte{1})
     faults.add(fields.where("jacobian"), fmt::format("{}", static_cast<int>(jacobian->bytes.front())),
                "1: values without the Jacobian are unknown to the format");
@@ -168,6 +164,7 @@ Contents read_contents(const std::filesystem::path& path) {
   }
   fields.require_extents(values, 0, slices, "one slice per phi_i and theta_i");
   fields.require_extents(values, 2, {arrays.channels.size()}, spectral ? "one plane per wavelength" : "red, green and blue");
+  arrays.luminance = fields.numbers(luminance);
   if (luminance != nullptr) fields.require_extents(values, 3, {luminance->shape[2], luminance->shape[3]}, "the grid of 'luminance'");
   fields.require_grid(values);
   arrays.values = fields.numbers(values);
@@ -181,8 +178,10 @@ Contents read_contents(const std::filesystem::path& path) {
     if (!(MarginalWarp::integral(arrays.vndf.data() + slice * size, arrays.vndf_rows, arrays.vndf_columns) > 0))
       faults.add(fmt::format("{} slice {}", fields.where("vndf"), slice), "0 everywhere", "a density of visible half vectors");
   faults.raise();
-  return out;
+  return arrays;
 }
+
+namespace {
 
 /// The nodes as samples, made when they are first asked for: a table is mostly opened to be evaluated.
 class NodeObservations final : public Observations {
@@ -214,21 +213,23 @@ std::string degrees_of(const std::vector<float>& angles) {
 
 }  // namespace
 
-RglArrays read_rgl(const std::filesystem::path& path) { return read_contents(path).arrays; }
-
 bool recognises_rgl(std::string_view head, std::uintmax_t) { return head.starts_with(tensor_file_signature); }
 
 Opened open_rgl(const std::filesystem::path& path, const ReadOptions&) {
-  Contents contents = read_contents(path);
-  const RglArrays& arrays = contents.arrays;
+  RglArrays arrays = read_rgl(path);
   Opened out;
   out.format = "rgl";
-  out.info = {{"description", contents.description},
+  const bool isotropic = RglTable::is_isotropic(arrays.phi_i);
+  out.info = {{"description", arrays.description},
+              {"holds", "f cos theta_o, divided by ndf / (4 sigma)"},
+              {"unit", "1/sr"},
+              {"nodes", "at samples, on a grid adapted to the distribution of half vectors of each incidence"},
               {"theta_i", degrees_of(arrays.theta_i)},
-              {"phi_i", RglTable::is_isotropic(arrays.phi_i) ? "isotropic" : degrees_of(arrays.phi_i)},
-              {"values", fmt::format("{} x {} per incidence and channel, f cos theta_o", arrays.value_rows, arrays.value_columns)},
-              {"half vectors", fmt::format("{} x {} per incidence", arrays.vndf_rows, arrays.vndf_columns)}};
-  const auto table = std::make_shared<const RglTable>(std::move(contents.arrays));
+              {"phi_i", isotropic ? "isotropic" : degrees_of(arrays.phi_i)},
+              {"values", fmt::format("{} x {} per incidence and channel", arrays.value_rows, arrays.value_columns)},
+              {"half vectors", fmt::format("{} x {} per incidence", arrays.vndf_rows, arrays.vndf_columns)},
+              {"normals", fmt::format("{} x {} azimuths and zenith angles of ndf and sigma", arrays.angle_rows, arrays.angle_columns)}};
+  const auto table = std::make_shared<const RglTable>(std::move(arrays));
   out.info.emplace_back("symmetry", words(table->symmetry()));
   out.observations = std::make_shared<const NodeObservations>(table);
   out.brdf = table;

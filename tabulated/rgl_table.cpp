@@ -50,6 +50,12 @@ RglTable::RglTable(RglArrays arrays)
       vndf_(std::exchange(arrays_.vndf, {}), arrays_.vndf_rows, arrays_.vndf_columns),
       turns_(turns(arrays_.phi_i)) {}
 
+RglArrays RglTable::arrays() const {
+  RglArrays out = arrays_;
+  out.vndf = vndf_.density();
+  return out;
+}
+
 UnitPoint RglTable::unit_point(double theta, double phi) const noexcept {
   const double y = (phi + pi) / (2 * pi);
   return {std::sqrt(theta * 2 / pi), y - std::floor(y)};

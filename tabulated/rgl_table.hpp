@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "brdf/brdf.hpp"
@@ -20,8 +21,10 @@ struct RglArrays {
   std::size_t vndf_rows = 0, vndf_columns = 0;
   std::vector<float> vndf;  ///< [P, T, rows, columns] density of visible half vectors over u, any scale
   std::size_t value_rows = 0, value_columns = 0;
-  std::vector<float> values;  ///< [P, T, channel, rows, columns] f cos theta_o · 4 sigma(wi) / ndf(m) over the warped square
+  std::vector<float> values;     ///< [P, T, channel, rows, columns] f cos theta_o · 4 sigma(wi) / ndf(m) over the warped square
+  std::vector<float> luminance;  ///< [P, T, rows, columns] >= 0: where renderers put their samples; of no meaning to values
   Channels channels;
+  std::string description;
 };
 
 /// Dupuy and Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", ACM TOG 37(6), 2018:
@@ -40,6 +43,9 @@ class RglTable final : public Brdf {
 
   /// Trusts that the arrays fit together.
   explicit RglTable(RglArrays arrays);
+
+  /// What it was made from.
+  RglArrays arrays() const;
 
   const Channels& channels() const override { return arrays_.channels; }
   Symmetry symmetry() const override { return {.isotropic = arrays_.phi_i.size() == 1, .bilateral = false, .reciprocal = false}; }

@@ -40,4 +40,7 @@ struct Tensor {
 /// what could be read is returned and points into `file`.
 std::vector<Tensor> read_tensors(std::span<const std::byte> file, FaultList& faults);
 
+/// The bytes of such a file, every array at a multiple of eight bytes. The bytes of each array must be those of its shape.
+std::string tensor_bytes(const std::vector<Tensor>& tensors);
+
 }  // namespace gonio::tabulated
