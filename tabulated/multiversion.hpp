@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Functions compiled for more than one instruction set, chosen when the program starts.
+#pragma once
+
+// g++ on x86-64 only: elsewhere the one version takes what the compiler's target has. Not under a sanitizer, whose run-time is not there
+// yet when the choice is made.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define GONIO_MULTIVERSION __attribute__((target_clones("avx2", "default")))
+#else
+#define GONIO_MULTIVERSION
+#endif
