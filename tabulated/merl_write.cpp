@@ -194,6 +194,8 @@ void write_both(const std::filesystem::path& path, const std::string& table, con
 ExportNotes write_merl(const Opened& source, const std::filesystem::path& path, const WriteOptions& options) {
   if (!source.brdf)
     throw Error(ErrorKind::input, {path.string(), fmt::format("a {} that cannot be evaluated", source.format), "a model or a table"});
+  if (source.side == Side::transmission)
+    throw Error(ErrorKind::input, {path.string(), fmt::format("the transmission of a {}", source.format), "reflection"});
   const Channels& channels = source.brdf->channels();
   if (channels.size() != 1 && channels.size() != 3)
     throw Error(ErrorKind::input,

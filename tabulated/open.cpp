@@ -16,6 +16,7 @@
 #include "tabulated/lighttools.hpp"
 #include "tabulated/merl.hpp"
 #include "tabulated/openmaterial.hpp"
+#include "tabulated/radiance_xml.hpp"
 #include "tabulated/rgl.hpp"
 #include "tabulated/samples_to_write.hpp"
 #include "tabulated/zemax.hpp"
@@ -107,6 +108,14 @@ const std::vector<Format>& formats() {
       {"rgl", "material file of the RGL database, RGB or spectral; written as RGB (.bsdf)", recognises_rgl, open_rgl, write_rgl_rgb, ".bsdf",
        true},
       {"rgl-spectral", "the same with a spectrum for every pair (write only)", nullptr, nullptr, write_rgl_spectral, ".bsdf", true},
+      {"radiance-xml",
+       "BSDF of WINDOW or Radiance as XML, matrix or tensor tree (read only; written as radiance-klems-..., radiance-tree...)",
+       recognises_radiance_xml,
+       open_radiance_xml,
+       nullptr,
+       "",
+       false,
+       {"kind", "side", "wavelength"}},
       {"fit-json", "the document of a fit, as the model it describes (read only)", recognises_fit_json, open_fit_json},
       {"zemax",
        "tabular scatter file of OpticStudio, angles about the specular direction (.bsdf)",

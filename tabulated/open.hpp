@@ -57,6 +57,7 @@ struct Opened {
   std::vector<std::pair<std::string, std::string>> info;
   MaskedCounts masked;
   bool simulated = false;
+  Side side = Side::reflection;  ///< where outgoing directions lie: formats for reflection refuse transmission
 };
 
 /// Throws Error(input) naming the file, what was found and what was wanted; all faults at once.

@@ -16,6 +16,7 @@ Opened opened_samples(std::string format, std::shared_ptr<const Dataset> dataset
   out.info = describe(*dataset);
   out.masked = dataset->masked;
   out.simulated = dataset->simulated;
+  out.side = dataset->side;
   out.dataset = std::move(dataset);
   return out;
 }

@@ -13,7 +13,7 @@
 
 namespace gonio::tabulated {
 
-Side side_of(const Opened& source) { return source.dataset ? source.dataset->side : Side::reflection; }
+Side side_of(const Opened& source) { return source.dataset ? source.dataset->side : source.side; }
 
 ChannelMap one_channel_or_xyz(const Channels& channels) {
   if (channels.size() > 1) return map_to_xyz(channels);
