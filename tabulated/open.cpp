@@ -8,11 +8,13 @@
 #include <system_error>
 
 #include "brdf/error.hpp"
+#include "tabulated/abg.hpp"
 #include "tabulated/alta.hpp"
 #include "tabulated/bird.hpp"
 #include "tabulated/brdf_exr.hpp"
 #include "tabulated/csv.hpp"
 #include "tabulated/fit_json.hpp"
+#include "tabulated/fred.hpp"
 #include "tabulated/lighttools.hpp"
 #include "tabulated/merl.hpp"
 #include "tabulated/openmaterial.hpp"
@@ -133,6 +135,15 @@ const std::vector<Format>& formats() {
        ".bsdf",
        false,
        {"side", "scatter"}},
+      {"fred",
+       "tabulated scatter of FRED, named by the specular direction (.txt)",
+       recognises_fred,
+       open_fred,
+       write_fred,
+       ".txt",
+       false,
+       {"side"}},
+      {"abg", "parameters of the ABg model by incidence, for OpticStudio and FRED (.abg)", recognises_abg, open_abg, write_abg, ".abg"},
       {"alta", "samples as text of the ALTA library, with its #DIM and #PARAM lines (read only)", recognises_alta, open_alta},
       {"csv", "samples as text: theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg, values and uncertainties", recognises_csv, open_csv,
        write_samples_as_csv, ".csv"},
