@@ -76,7 +76,7 @@ bool one_azimuth(const Dataset& samples) {
 }
 
 void add_incidence(RefitData& data, const Brdf& source, double theta_deg) {
-  constexpr int nh = 64, np = 48;
+  constexpr int nh = 24, np = 16;
   RefitData::Incidence out;
   // A quarter of a degree off the axes: no node lies where atan2 of a table jumps.
   out.wi = Direction::spherical(degrees(theta_deg), degrees(0.25));
@@ -103,6 +103,30 @@ void add_incidence(RefitData& data, const Brdf& source, double theta_deg) {
   data.incidences.push_back(std::move(out));
 }
 
+/// Added to an albedo before its logarithm is taken: less is black.
+constexpr double black = 1e-3;
+
+/// [incidence · C + channel] of ln(albedo + black); NaN where the source's is not known.
+std::vector<double> log_albedos(const RefitData& data, const EvaluateFormula& formula) {
+  const std::size_t n = data.channel_count;
+  std::vector<double> out, f(n), sum(n);
+  for (const RefitData::Incidence& incidence : data.incidences) {
+    std::fill(sum.begin(), sum.end(), 0.0);
+    for (std::size_t k = 0; k < incidence.wo.size(); ++k) {
+      formula(incidence.wi, incidence.wo[k], f.data());
+      for (std::size_t c = 0; c < n; ++c) sum[c] += incidence.weight[k] * f[c];
+    }
+    for (const double albedo : sum) out.push_back(std::log(std::max(0.0, albedo) + black));
+  }
+  return out;
+}
+std::vector<double> log_albedos(const RefitData& data) {
+  std::vector<double> out;
+  for (const RefitData::Incidence& incidence : data.incidences)
+    for (const double albedo : incidence.albedo) out.push_back(std::log(std::max(0.0, albedo) + black));
+  return out;
+}
+
 double lit(double f, double cos_o) { return std::log(f * cos_o + dark_floor); }
 
 /// The residuals of all pairs and channels as a function of the free parameters.
@@ -116,11 +140,17 @@ class Residuals final : public ceres::CostFunction {
 
   Residuals(const RefitData& data, const TargetFormula& formula, ChannelValues base, std::vector<Free> free)
       : data_(data), formula_(formula), base_(std::move(base)), free_(std::move(free)) {
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(free_.size()));
-    set_num_residuals(static_cast<int>(data.f.size()));
     for (std::size_t k = 0; k < data.size(); ++k)
       for (std::size_t c = 0; c < data.channel_count; ++c) target_.push_back(lit(data.f[k * data.channel_count + c], data.wo[k].z()));
-    scale_ = 1 / std::sqrt(static_cast<double>(target_.size()));
+    scale_.assign(target_.size(), 1 / std::sqrt(static_cast<double>(target_.size())));
+    const std::vector<double> albedos = log_albedos(data);
+    const auto known = std::count_if(albedos.begin(), albedos.end(), [](double a) { return std::isfinite(a); });
+    for (const double albedo : albedos) {
+      target_.push_back(std::isfinite(albedo) ? albedo : 0);
+      scale_.push_back(std::isfinite(albedo) ? 1 / std::sqrt(static_cast<double>(known)) : 0);
+    }
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(free_.size()));
+    set_num_residuals(static_cast<int>(target_.size()));
   }
 
   ChannelValues values(const double* x) const {
@@ -134,7 +164,7 @@ class Residuals final : public ceres::CostFunction {
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
     const ChannelValues at = values(x[0]);
     logs(at, residuals);
-    for (std::size_t r = 0; r < target_.size(); ++r) residuals[r] = scale_ * (residuals[r] - target_[r]);
+    for (std::size_t r = 0; r < target_.size(); ++r) residuals[r] = scale_[r] * (residuals[r] - target_[r]);
     if (jacobians && jacobians[0]) differentiate(at, jacobians[0]);
     return std::all_of(residuals, residuals + target_.size(), [](double r) { return std::isfinite(r); });
   }
@@ -147,6 +177,8 @@ class Residuals final : public ceres::CostFunction {
       evaluate(data_.wi[k], data_.wo[k], out + k * n);
       for (std::size_t c = 0; c < n; ++c) out[k * n + c] = lit(std::max(0.0, out[k * n + c]), data_.wo[k].z());
     }
+    const std::vector<double> albedos = log_albedos(data_, evaluate);
+    std::copy(albedos.begin(), albedos.end(), out + data_.f.size());
   }
 
   /// Central differences, one-sided at a bound. A parameter per channel is moved in all channels at once: channels do not mix.
@@ -168,7 +200,7 @@ class Residuals final : public ceres::CostFunction {
       logs(low, below.data());
       for (std::size_t r = 0; r < target_.size(); ++r) {
         const std::size_t c = r % n;
-        const double slope = scale_ * (above[r] - below[r]) / step[c];
+        const double slope = scale_[r] * (above[r] - below[r]) / step[c];
         for (std::size_t j = 0; j < columns; ++j)
           if (free_[j].parameter == p && (!free_[j].channel || *free_[j].channel == c)) jacobian[r * columns + j] = slope;
       }
@@ -179,8 +211,7 @@ class Residuals final : public ceres::CostFunction {
   const TargetFormula& formula_;
   ChannelValues base_;
   std::vector<Free> free_;
-  std::vector<double> target_;
-  double scale_ = 1;
+  std::vector<double> target_, scale_;  ///< pairs first, then incidences; channel by channel in each
 };
 
 struct End {
@@ -215,8 +246,8 @@ End descend(const RefitData& data, const TargetFormula& formula, const ChannelVa
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = iterations;
-  options.function_tolerance = 1e-12;
-  options.parameter_tolerance = 1e-12;
+  options.function_tolerance = 1e-10;
+  options.parameter_tolerance = 1e-10;
   options.gradient_tolerance = 1e-14;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
@@ -224,8 +255,8 @@ End descend(const RefitData& data, const TargetFormula& formula, const ChannelVa
   return {residuals.values(x.data()), summary.IsSolutionUsable() ? summary.final_cost : std::numeric_limits<double>::infinity()};
 }
 
-constexpr int first_look = 12;   ///< iterations from every start
-constexpr int to_the_end = 100;  ///< from the best ends of the first look
+constexpr int first_look = 8;   ///< iterations from every start
+constexpr int to_the_end = 50;  ///< from the best ends of the first look
 
 /// The best of the ends from several starts.
 End best_end(const RefitData& data, const TargetFormula& formula, const std::vector<ChannelValues>& starts) {
@@ -233,7 +264,7 @@ End best_end(const RefitData& data, const TargetFormula& formula, const std::vec
   for (const ChannelValues& start : starts) ends.push_back(descend(data, formula, start, first_look));
   std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.cost < b.cost; });
   End best = ends.front();
-  for (std::size_t k = 0; k < std::min<std::size_t>(2, ends.size()); ++k) {
+  for (std::size_t k = 0; k < std::min<std::size_t>(3, ends.size()); ++k) {
     End end = descend(data, formula, ends[k].values, to_the_end);
     if (end.cost < best.cost) best = std::move(end);
   }
@@ -272,18 +303,19 @@ RefitErrors refit_errors(const RefitData& data, const EvaluateFormula& formula) 
     }
   }
   const double count = static_cast<double>(data.f.size());
-  RefitErrors out{std::sqrt(logs / count), weights > 0 ? relative / weights : 0, std::sqrt(squares / count), std::nullopt};
-  for (const RefitData::Incidence& incidence : data.incidences) {
-    std::vector<double> sum(n);
-    for (std::size_t k = 0; k < incidence.wo.size(); ++k) {
-      formula(incidence.wi, incidence.wo[k], f.data());
-      for (std::size_t c = 0; c < n; ++c) sum[c] += incidence.weight[k] * f[c];
-    }
-    for (std::size_t c = 0; c < n; ++c) {
-      const double gap = sum[c] - incidence.albedo[c];
-      if (std::isfinite(gap) && std::abs(gap) >= std::abs(out.albedo_difference.value_or(0))) out.albedo_difference = gap;
-    }
+  RefitErrors out;
+  out.log_rms = std::sqrt(logs / count);
+  out.mean_relative = weights > 0 ? relative / weights : 0;
+  out.rms_f_cos = std::sqrt(squares / count);
+  const std::vector<double> albedos = log_albedos(data, formula), wanted = log_albedos(data);
+  double albedo_squares = 0, known = 0;
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    if (!std::isfinite(wanted[k])) continue;
+    albedo_squares += (albedos[k] - wanted[k]) * (albedos[k] - wanted[k]), ++known;
+    const double gap = std::exp(albedos[k]) - std::exp(wanted[k]);
+    if (std::abs(gap) >= std::abs(out.albedo_difference.value_or(0))) out.albedo_difference = gap;
   }
+  out.misfit = std::sqrt(logs / count + (known > 0 ? albedo_squares / known : 0));
   return out;
 }
 
@@ -294,14 +326,15 @@ Refit refit(const RefitData& data, const TargetFormula& formula, const LobeSumma
   out.naive_errors = refit_errors(data, formula.prepare(out.naive));
   out.values = best_end(data, formula, starts).values;
   out.errors = refit_errors(data, formula.prepare(out.values));
-  if (!(out.errors.log_rms <= out.naive_errors.log_rms)) out.values = out.naive, out.errors = out.naive_errors;
+  if (!(out.errors.misfit <= out.naive_errors.misfit)) out.values = out.naive, out.errors = out.naive_errors;
   for (std::size_t p = 0; p < formula.parameters.size(); ++p) {
     const FormulaParameter& parameter = formula.parameters[p];
     if (data.isotropic && parameter.if_isotropic) continue;
     const double near = 1e-9 * (parameter.upper - parameter.lower);
-    if (std::any_of(out.values.begin(), out.values.end(),
-                    [&](const auto& set) { return set[p] <= parameter.lower + near || set[p] >= parameter.upper - near; }))
-      out.at_bound.push_back(p);
+    const auto at_end = [&](double value) { return value <= parameter.lower + near || value >= parameter.upper - near; };
+    bool put_there = false;
+    for (std::size_t c = 0; c < out.values.size(); ++c) put_there = put_there || (at_end(out.values[c][p]) && !at_end(out.naive[c][p]));
+    if (put_there) out.at_bound.push_back(p);
   }
   return out;
 }

@@ -44,21 +44,24 @@ RefitData refit_data(const Brdf& source, const Dataset* samples = nullptr);
 
 /// How far a formula is from the source.
 struct RefitErrors {
-  double log_rms = 0;                       ///< of ln(f cos theta_o + dark_floor), every pair alike: what a refit minimises
+  /// What a refit minimises: √(log_rms² + mean square of the logarithm of the ratio of albedos, at 0°, 30° and 60° as far as they are
+  /// known). The second term keeps the brightness where a formula cannot follow the tails of a lobe.
+  double misfit = 0;
+  double log_rms = 0;                       ///< of ln(f cos theta_o + dark_floor), every pair alike
   double mean_relative = 0;                 ///< mean |f̂ - f|/f with the weights of the pairs, where f > 0
   double rms_f_cos = 0;                     ///< of (f̂ - f) cos theta_o [1/sr], every pair alike
-  std::optional<double> albedo_difference;  ///< f̂'s directional albedo minus the source's where it is largest, at 0°, 30° and 60°
+  std::optional<double> albedo_difference;  ///< f̂'s directional albedo minus the source's where it is largest, at the same incidences
 };
 RefitErrors refit_errors(const RefitData& data, const EvaluateFormula& formula);
 
 struct Refit {
   ChannelValues naive, values;
   RefitErrors naive_errors, errors;
-  std::vector<std::size_t> at_bound;  ///< parameters that ended at a bound for some channel
+  std::vector<std::size_t> at_bound;  ///< parameters that the refit, and not the naive conversion, put at a bound for some channel
 };
 
-/// Least squares in ln(f cos theta_o + dark_floor) by a trust region within the bounds, from every start of the formula; the best end wins,
-/// so the result is never farther than the naive conversion under that measure.
+/// Least squares of `misfit` by a trust region within the bounds, from every start of the formula; the best end wins, so the result is
+/// never farther than the naive conversion under that measure.
 Refit refit(const RefitData& data, const TargetFormula& formula, const LobeSummary& summary);
 
 /// Diffuse part and lobe of the source by a refit of `reference`, from starts taken from the data: for sources without such parameters.

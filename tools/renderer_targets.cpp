@@ -156,8 +156,8 @@ std::string harmless(std::string text) {
 }
 
 std::string errors_text(const fitting::RefitErrors& errors) {
-  std::string out = fmt::format("log rms {:.4f}, mean relative {:.2f} %, rms of f cos {:.3g} 1/sr", errors.log_rms,
-                                100 * errors.mean_relative, errors.rms_f_cos);
+  std::string out = fmt::format("misfit {:.4f}, log rms {:.4f}, mean relative {:.2f} %, rms of f cos {:.3g} 1/sr", errors.misfit,
+                                errors.log_rms, 100 * errors.mean_relative, errors.rms_f_cos);
   if (errors.albedo_difference) out += fmt::format(", albedo {:+.4f}", *errors.albedo_difference);
   return out;
 }
@@ -169,7 +169,7 @@ std::string parameter_text(const FormulaParameter& parameter, const ChannelValue
   return out;
 }
 
-/// `log rms` of every form, best first.
+/// The misfit of every form, best first.
 std::string rivals_text(const std::vector<std::pair<std::string_view, double>>& rivals) {
   std::string out;
   for (const auto& [name, error] : rivals) out += fmt::format("{}{} {:.4f}", out.empty() ? "" : ", ", name, error);
@@ -202,8 +202,8 @@ ExportNotes write_target(const targets::RenderTarget& target, const Opened& open
   std::vector<std::pair<std::string_view, double>> rivals;
   for (const targets::Form& form : target.forms) {
     fitting::Refit tried = fitting::refit(data, form.formula, summary);
-    rivals.emplace_back(form.formula.name, tried.errors.log_rms);
-    if (!best || tried.errors.log_rms < refit.errors.log_rms) best = &form, refit = std::move(tried);
+    rivals.emplace_back(form.formula.name, tried.errors.misfit);
+    if (!best || tried.errors.misfit < refit.errors.misfit) best = &form, refit = std::move(tried);
   }
   std::sort(rivals.begin(), rivals.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
 
@@ -217,7 +217,7 @@ ExportNotes write_target(const targets::RenderTarget& target, const Opened& open
     notes.facts.emplace_back(std::string(formula.parameters[p].name), parameter_text(formula.parameters[p], refit.values, p));
   notes.facts.emplace_back(read ? "naive conversion" : "naive (of a GGX fit)", errors_text(refit.naive_errors));
   notes.facts.emplace_back("after the refit", errors_text(refit.errors));
-  if (rivals.size() > 1) notes.facts.emplace_back("log rms by material", rivals_text(rivals));
+  if (rivals.size() > 1) notes.facts.emplace_back("misfit by material", rivals_text(rivals));
   for (const std::size_t p : refit.at_bound)
     notes.lost.push_back(fmt::format("{} ended at a bound of the target, {} to {}", formula.parameters[p].name, formula.parameters[p].lower,
                                      formula.parameters[p].upper));

@@ -3,6 +3,7 @@
 #include "tabulated/targets/list.hpp"
 #include "tabulated/targets/microfacet.hpp"
 #include "tabulated/targets/starts.hpp"
+#include "tabulated/targets/ward_lobe.hpp"
 
 namespace gonio::tabulated::targets {
 namespace {
@@ -55,27 +56,14 @@ vec3 brdf(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y)
 // ---------------------------------------------------------------- Ward's lobe with bounded albedo
 namespace ward {
 
-enum Slot : std::size_t { rho_d, rho_s, alpha, aspect };
+using namespace ward_lobe;
 
-const std::vector<FormulaParameter>& slots() {
-  static const std::vector<FormulaParameter> list{
-      {"rho_d", 0, 10, true}, {"rho_s", 0, 10, true}, {"alpha", 1e-3, 2, false}, {"aspect", 0.1, 10, false, 1}};
+const std::vector<FormulaParameter>& ward_slots() {
+  static const std::vector<FormulaParameter> list = slots(10);
   return list;
 }
-
-EvaluateFormula prepare(const ChannelValues& values) {
-  const auto [ax, ay] = widths(values[0][alpha], values[0][aspect]);
-  return [values, ax = ax, ay = ay](const Direction& wi, const Direction& wo, double* f) {
-    std::fill(f, f + values.size(), 0.0);
-    if (!above(wi, wo)) return;
-    const double x = (wi.x() + wo.x()), y = (wi.y() + wo.y()), z = wi.z() + wo.z(), sx = x / (z * ax), sy = y / (z * ay);
-    const double lobe = decay(sx * sx + sy * sy) * inverse_pi / (ax * ay) * (x * x + y * y + z * z) / (z * z * z * z);
-    for (std::size_t c = 0; c < values.size(); ++c) f[c] = values[c][rho_d] * inverse_pi + values[c][rho_s] * lobe;
-  };
-}
-
 std::vector<double> convert(const LobeSummary& s, bool, std::size_t c) { return {s.rho_d[c], s.f0[c], mean_width(s), aspect_of(s)}; }
-std::vector<ChannelValues> starts(const LobeSummary& s) { return converted_starts(s, slots(), false, convert); }
+std::vector<ChannelValues> starts(const LobeSummary& s) { return converted_starts(s, ward_slots(), false, convert); }
 
 std::string text(const Material& m) {
   const auto [ax, ay] = widths(m.shared(alpha), m.shared(aspect));
@@ -164,8 +152,8 @@ RenderTarget glsl_target() {
              "alpha_x and alpha_y are √2 times the rms slope",
              "none",
              "none: the lobe has one colour at every angle",
-             ward::slots(),
-             ward::prepare,
+             ward::ward_slots(),
+             ward_lobe::prepare,
              ward::starts,
              {"one lobe and a Lambertian part: no second lobe, no Fresnel effect"}},
             ward::text},

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Mitsuba 3: a scene in XML with one of its plugins roughplastic, blendbsdf of diffuse and roughconductor, or principled.
-#include <memory>
-
+#include "tabulated/targets/coated_diffuse.hpp"
+#include "tabulated/targets/conductor_mix.hpp"
 #include "tabulated/targets/list.hpp"
-#include "tabulated/targets/microfacet.hpp"
-#include "tabulated/targets/rough_interface.hpp"
-#include "tabulated/targets/starts.hpp"
 
 namespace gonio::tabulated::targets {
 namespace {
@@ -13,31 +10,14 @@ namespace {
 // ---------------------------------------------------------------- roughplastic
 namespace plastic {
 
-enum Slot : std::size_t { diffuse_reflectance, specular_reflectance, alpha, int_ior };
+using namespace coated_diffuse;
 
-const std::vector<FormulaParameter>& slots() {
-  static const std::vector<FormulaParameter> list{
-      {"diffuse_reflectance", 0, 1, true}, {"specular_reflectance", 0, 1, true}, {"alpha", 1e-3, 1, false}, {"int_ior", 1.02, 4, false}};
+const std::vector<FormulaParameter>& plastic_slots() {
+  static const std::vector<FormulaParameter> list = slots("diffuse_reflectance", "alpha", "int_ior", "specular_reflectance");
   return list;
 }
-
-EvaluateFormula prepare(const ChannelValues& values) {
-  const double a = values[0][alpha], n = values[0][int_ior];
-  const RoughInterface surface(a, n, RoughInterface::Shadowing::separable, RoughInterface::Mean::of_nodes);
-  return [values, a, n, surface](const Direction& wi, const Direction& wo, double* f) {
-    std::fill(f, f + values.size(), 0.0);
-    if (!above(wi, wo)) return;
-    const MicrofacetPair p(wi, wo);
-    const double lobe = dielectric_fresnel(p.cos_d, n) * ggx_d(p, a, a) * separable_visibility(wi, wo, a, a);
-    for (std::size_t c = 0; c < values.size(); ++c)
-      f[c] = values[c][specular_reflectance] * lobe + surface.diffuse(values[c][diffuse_reflectance], p.cos_i, p.cos_o);
-  };
-}
-
-std::vector<double> convert(const LobeSummary& s, bool, std::size_t c) {
-  return {s.rho_d[c], s.f90[c], mean_width(s), index_of(mean(s.f0))};
-}
-std::vector<ChannelValues> starts(const LobeSummary& s) { return converted_starts(s, slots(), false, convert); }
+std::vector<double> convert(const LobeSummary& s, bool, std::size_t c) { return converted(s, c); }
+std::vector<ChannelValues> starts(const LobeSummary& s) { return converted_starts(s, plastic_slots(), false, convert); }
 
 std::string bsdf(const Material& m) {
   return filled(R"(    <bsdf type="roughplastic" id="material">
@@ -52,9 +32,9 @@ std::string bsdf(const Material& m) {
     </bsdf>
 )",
                 {{"alpha", real(m.shared(alpha))},
-                 {"int_ior", real(m.shared(int_ior))},
-                 {"diffuse", triple(m.colour(diffuse_reflectance), ", ")},
-                 {"specular", triple(m.colour(specular_reflectance), ", ")}});
+                 {"int_ior", real(m.shared(coated_diffuse::index))},
+                 {"diffuse", triple(m.colour(albedo), ", ")},
+                 {"specular", triple(m.colour(scale), ", ")}});
 }
 
 }  // namespace plastic
@@ -62,45 +42,7 @@ std::string bsdf(const Material& m) {
 // ---------------------------------------------------------------- blendbsdf of diffuse and roughconductor
 namespace blend {
 
-enum Slot : std::size_t { reflectance, eta, k, alpha, aspect, weight };
-
-const std::vector<FormulaParameter>& slots() {
-  static const std::vector<FormulaParameter> list{
-      {"reflectance", 0, 1, true}, {"eta", 0.05, 40, true},       {"k", 0, 40, true},
-      {"alpha", 1e-3, 1, false},   {"aspect", 0.1, 10, false, 1}, {"weight", 1e-3, 1 - 1e-3, false}};
-  return list;
-}
-
-EvaluateFormula prepare(const ChannelValues& values) {
-  const auto [ax, ay] = widths(values[0][alpha], values[0][aspect]);
-  return [values, ax = ax, ay = ay, w = values[0][weight]](const Direction& wi, const Direction& wo, double* f) {
-    std::fill(f, f + values.size(), 0.0);
-    if (!above(wi, wo)) return;
-    const MicrofacetPair p(wi, wo);
-    const double lobe = w * ggx_d(p, ax, ay) * separable_visibility(wi, wo, ax, ay);
-    for (std::size_t c = 0; c < values.size(); ++c)
-      f[c] = (1 - w) * values[c][reflectance] * inverse_pi + conductor_fresnel(p.cos_d, values[c][eta], values[c][k]) * lobe;
-  };
-}
-
-/// As much of the conductor as the diffuse part leaves room for.
-std::vector<double> convert(const LobeSummary& s, bool, std::size_t c) {
-  const double w = std::clamp(1 - *std::max_element(s.rho_d.begin(), s.rho_d.end()), 0.05, 0.99);
-  return {s.rho_d[c] / (1 - w), index_of(s.f0[c] / w), 0.01, mean_width(s), aspect_of(s), w};
-}
-std::vector<ChannelValues> starts(const LobeSummary& s) {
-  std::vector<ChannelValues> out = converted_starts(s, slots(), false, convert);
-  // The same reflectance at the normal from absorption instead of a high index.
-  for (std::size_t n = out.size(), j = 0; j < n; ++j) {
-    ChannelValues metal = out[j];
-    for (auto& set : metal) {
-      const double f0 = f0_of(set[eta]);
-      set[eta] = 1, set[k] = 2 * std::sqrt(f0 / (1 - f0));
-    }
-    out.push_back(std::move(metal));
-  }
-  return out;
-}
+using namespace conductor_mix;
 
 std::string bsdf(const Material& m) {
   const auto [ax, ay] = widths(m.shared(alpha), m.shared(aspect));
@@ -232,9 +174,9 @@ RenderTarget mitsuba_target() {
              "alpha_u and alpha_v are the GGX widths themselves",
              "Smith, product of both directions",
              "exact, of a conductor with eta and k per channel",
-             blend::slots(),
-             blend::prepare,
-             blend::starts,
+             conductor_mix::slots(),
+             conductor_mix::prepare<separable_visibility>,
+             conductor_mix::starts,
              {"blendbsdf: the amounts of the diffuse and the mirror-like part add up to 1"}},
             scene<blend::bsdf>},
            {{"roughplastic",
@@ -242,8 +184,8 @@ RenderTarget mitsuba_target() {
              "alpha is the GGX width itself",
              "Smith, product of both directions",
              "exact, of a dielectric; diffuse light passes the surface twice and is scattered between (nonlinear)",
-             plastic::slots(),
-             plastic::prepare,
+             plastic::plastic_slots(),
+             coated_diffuse::prepare<RoughInterface::Shadowing::separable, RoughInterface::Mean::of_nodes>,
              plastic::starts,
              {"roughplastic: isotropic, one index for all channels"}},
             scene<plastic::bsdf>},

@@ -12,9 +12,17 @@ namespace gonio::tabulated::targets {
 
 const std::vector<RenderTarget>& render_targets() {
   static const std::vector<RenderTarget> list{
-      disney_target(),   //
-      glsl_target(),     //
-      mitsuba_target(),  //
+      blender_target(),           //
+      disney_target(),            //
+      glsl_target(),              //
+      gltf_target(),              //
+      mitsuba_target(),           //
+      open_pbr_target(),          //
+      osl_target(),               //
+      pbrt_target(),              //
+      radiance_plastic_target(),  //
+      radiance_target(),          //
+      standard_surface_target(),  //
   };
   return list;
 }

