@@ -165,7 +165,7 @@ class Residuals final : public ceres::CostFunction {
     const ChannelValues at = values(x[0]);
     logs(at, residuals);
     for (std::size_t r = 0; r < target_.size(); ++r) residuals[r] = scale_[r] * (residuals[r] - target_[r]);
-    if (jacobians && jacobians[0]) differentiate(at, jacobians[0]);
+    if (jacobians && jacobians[0]) differentiate(at, residuals, jacobians[0]);
     return std::all_of(residuals, residuals + target_.size(), [](double r) { return std::isfinite(r); });
   }
 
@@ -181,26 +181,24 @@ class Residuals final : public ceres::CostFunction {
     std::copy(albedos.begin(), albedos.end(), out + data_.f.size());
   }
 
-  /// Central differences, one-sided at a bound. A parameter per channel is moved in all channels at once: channels do not mix.
-  void differentiate(const ChannelValues& at, double* jacobian) const {
+  /// Differences away from the nearer bound. A parameter per channel is moved in all channels at once: channels do not mix.
+  void differentiate(const ChannelValues& at, const double* residuals, double* jacobian) const {
     const std::size_t n = data_.channel_count, columns = free_.size();
     std::fill(jacobian, jacobian + target_.size() * columns, 0.0);
-    std::vector<double> above(target_.size()), below(target_.size()), step(n);
+    std::vector<double> moved(target_.size()), step(n);
     for (std::size_t p = 0; p < formula_.parameters.size(); ++p) {
       const auto first = std::find_if(free_.begin(), free_.end(), [&](const Free& f) { return f.parameter == p; });
       if (first == free_.end()) continue;
-      ChannelValues high = at, low = at;
+      ChannelValues next = at;
       for (std::size_t c = 0; c < n; ++c) {
-        const double h = 1e-5 * std::max(std::abs(at[c][p]), 1e-3);
-        high[c][p] = std::min(at[c][p] + h, formula_.parameters[p].upper);
-        low[c][p] = std::max(at[c][p] - h, formula_.parameters[p].lower);
-        step[c] = high[c][p] - low[c][p];
+        const double h = 1e-6 * std::max(std::abs(at[c][p]), 1e-2);
+        next[c][p] += at[c][p] + h <= formula_.parameters[p].upper ? h : -h;
+        step[c] = next[c][p] - at[c][p];
       }
-      logs(high, above.data());
-      logs(low, below.data());
+      logs(next, moved.data());
       for (std::size_t r = 0; r < target_.size(); ++r) {
         const std::size_t c = r % n;
-        const double slope = scale_[r] * (above[r] - below[r]) / step[c];
+        const double slope = (scale_[r] * (moved[r] - target_[r]) - residuals[r]) / step[c];
         for (std::size_t j = 0; j < columns; ++j)
           if (free_[j].parameter == p && (!free_[j].channel || *free_[j].channel == c)) jacobian[r * columns + j] = slope;
       }
@@ -258,6 +256,8 @@ End descend(const RefitData& data, const TargetFormula& formula, const ChannelVa
 constexpr int first_look = 8;   ///< iterations from every start
 constexpr int to_the_end = 50;  ///< from the best ends of the first look
 
+constexpr double worth_following = 4;  ///< ends of the first look with no more than this times the best cost
+
 /// The best of the ends from several starts.
 End best_end(const RefitData& data, const TargetFormula& formula, const std::vector<ChannelValues>& starts) {
   std::vector<End> ends;
@@ -265,6 +265,7 @@ End best_end(const RefitData& data, const TargetFormula& formula, const std::vec
   std::stable_sort(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.cost < b.cost; });
   End best = ends.front();
   for (std::size_t k = 0; k < std::min<std::size_t>(3, ends.size()); ++k) {
+    if (ends[k].cost > worth_following * ends.front().cost) break;
     End end = descend(data, formula, ends[k].values, to_the_end);
     if (end.cost < best.cost) best = std::move(end);
   }
@@ -284,7 +285,9 @@ RefitData refit_data(const Brdf& source, const Dataset* samples) {
     add_grid(data, source);
   if (data.size() == 0)
     throw Error(ErrorKind::input, {"source", "no value at zenith angles up to 80°", "a BRDF that is known somewhere above the surface"});
-  for (const double theta : incidence_deg) add_incidence(data, source, theta);
+  // Between samples lies no more than an interpolation, and beyond them less: no albedo of theirs counts.
+  if (!samples)
+    for (const double theta : incidence_deg) add_incidence(data, source, theta);
   return data;
 }
 

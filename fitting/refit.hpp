@@ -32,7 +32,7 @@ struct RefitData {
     std::vector<double> weight;  ///< cos theta_o dwo
     std::vector<double> albedo;  ///< of the source, per channel; NaN if it is not known nearly everywhere
   };
-  std::vector<Incidence> incidences;
+  std::vector<Incidence> incidences;  ///< none at samples
 
   std::size_t size() const noexcept { return wi.size(); }
 };
