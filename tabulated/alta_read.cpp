@@ -30,15 +30,40 @@ Pose from_projected(const Coordinates& x) { return {x[0], 0, std::hypot(x[1], x[
 Pose from_difference(const Coordinates& x) { return {x[1], 0, x[0], x[2]}; }
 Pose from_spherical(const Coordinates& x) { return {x[0], x[1], x[2], x[3]}; }
 
+Pose from_half_difference(double theta_h, double phi_h, double theta_d, double phi_d) {
+  const DirectionPair pair = directions({radians(theta_h), radians(phi_h), radians(theta_d), radians(phi_d)});
+  const GonioAngles out = gonio_angles(pair.wi, pair.wo);
+  return {out.theta_i.radians(), out.phi_i.radians(), out.theta_o.radians(), out.phi_o.radians()};
+}
+Pose from_isotropic_half(const Coordinates& x) { return from_half_difference(x[0], 0, x[1], x[2]); }
+Pose from_half(const Coordinates& x) { return from_half_difference(x[0], x[1], x[2], x[3]); }
+/// The cosine of theta_h; behind it theta_d and phi_d, which were answered.
+Pose from_cosine(const Coordinates& x) {
+  const double theta_h = std::atan2(std::sqrt(std::max(0.0, (1 - x[0]) * (1 + x[0]))), x[0]);
+  return from_half_difference(theta_h, 0, x[1], x[2]);
+}
+
 struct Parameterisation {
   std::string_view name;
   std::size_t dimensions;
   bool isotropic;
   Pose (*pose)(const Coordinates&);
+  /// Coordinates that stand in no row because the file is a slice at one value of each: keys of `--assume`.
+  std::vector<const char*> slice = {};
 };
-constexpr Parameterisation parameterisations[] = {{"ISOTROPIC_TL_TV_PROJ_DPHI", 3, true, from_projected},
-                                                  {"ISOTROPIC_TV_TL_DPHI", 3, true, from_difference},
-                                                  {"SPHERICAL_TL_PL_TV_PV", 4, false, from_spherical}};
+const Parameterisation parameterisations[] = {{"ISOTROPIC_TL_TV_PROJ_DPHI", 3, true, from_projected},
+                                              {"ISOTROPIC_TV_TL_DPHI", 3, true, from_difference},
+                                              {"SPHERICAL_TL_PL_TV_PV", 4, false, from_spherical},
+                                              {"RUSIN_TH_TD_PD", 3, true, from_isotropic_half},
+                                              {"RUSIN_TH_PH_TD_PD", 4, false, from_half},
+                                              {"RUSIN_TH_TD", 2, true, from_isotropic_half, {"phi_d_deg"}},
+                                              {"COS_TH", 1, true, from_cosine, {"theta_d_deg", "phi_d_deg"}}};
+
+std::string known_parameterisations() {
+  std::string out;
+  for (const Parameterisation& known : parameterisations) out += fmt::format("{}{}", out.empty() ? "" : ", ", known.name);
+  return "one of " + out;
+}
 
 struct Header {
   const Parameterisation* parameterisation = nullptr;
@@ -80,12 +105,11 @@ Header read_header(std::string_view text, FaultList& faults) {
   if (known != std::end(parameterisations))
     out.parameterisation = known;
   else
-    faults.add(faults.file(), fmt::format("PARAM_IN {}", excerpt(in)),
-               fmt::format("{}, {} or {}", parameterisations[0].name, parameterisations[1].name, parameterisations[2].name));
+    faults.add(faults.file(), fmt::format("PARAM_IN {}", excerpt(in)), known_parameterisations());
   if (quantity == "INV_STERADIAN_COSINE_FACTOR")
     out.quantity = Quantity::f_cos;
-  else if (quantity != "INV_STERADIAN")
-    faults.add(faults.file(), fmt::format("PARAM_OUT {}", excerpt(quantity)), "INV_STERADIAN or INV_STERADIAN_COSINE_FACTOR");
+  else if (quantity != "INV_STERADIAN" && quantity != "RGB_COLOR")
+    faults.add(faults.file(), fmt::format("PARAM_OUT {}", excerpt(quantity)), "INV_STERADIAN, INV_STERADIAN_COSINE_FACTOR or RGB_COLOR");
   if (!format.empty() && format != "text") faults.add(faults.file(), fmt::format("FORMAT {}", excerpt(format)), "text");
   if (segments.find_first_not_of("0 \t") != std::string::npos)
     faults.add(faults.file(), fmt::format("VS {}", excerpt(segments)), "0: values without segments");
@@ -105,6 +129,24 @@ Header read_header(std::string_view text, FaultList& faults) {
         faults.file(), fmt::format("DIM {}", excerpt(dimensions)),
         fmt::format("the {} of the parameterisation and a number of values", out.parameterisation ? out.parameterisation->dimensions : 3));
   out.texts = std::move(lines);
+  return out;
+}
+
+/// The coordinates of a slice that stand in no row, in radians.
+Coordinates slice_of(const Parameterisation& parameterisation, const ReadOptions& options, FaultList& faults) {
+  Coordinates out;
+  for (const char* key : parameterisation.slice) {
+    const auto answer = options.assumed(key);
+    if (!answer) {
+      faults.add(faults.file(), fmt::format("PARAM_IN {} alone: a slice at one {} that no row has", parameterisation.name, key),
+                 fmt::format("--assume {}=DEGREES", key));
+      continue;
+    }
+    const Number number = parse_number(*answer);
+    if (number.fault != nullptr || !(std::fabs(number.value) <= 360))
+      throw Error(ErrorKind::usage, {fmt::format("--assume {}", key), *answer, "an angle in degrees"});
+    out.push_back(number.value * std::numbers::pi / 180);
+  }
   return out;
 }
 
@@ -154,6 +196,8 @@ Dataset read_alta(const std::filesystem::path& path, const ReadOptions& options)
   FaultList faults(path.string());
   const Header header = read_header(text, faults);
   faults.raise();
+  const Coordinates slice = slice_of(*header.parameterisation, options, faults);
+  faults.raise();
 
   Dataset out;
   out.symmetry.isotropic = header.parameterisation->isotropic;
@@ -166,7 +210,7 @@ Dataset read_alta(const std::filesystem::path& path, const ReadOptions& options)
   out.f.resize(header.values);
 
   const std::size_t dimensions = header.parameterisation->dimensions;
-  Coordinates coordinates(dimensions);
+  Coordinates coordinates(dimensions + slice.size());
   std::vector<double> values(header.values);
   std::vector<std::string_view> fields;
   CsvLines lines(text);
@@ -187,7 +231,9 @@ Dataset read_alta(const std::filesystem::path& path, const ReadOptions& options)
       }
       (k < dimensions ? coordinates[k] : values[k - dimensions]) = number.value;
     }
-    if (sound) add_sample(coordinates, values, header, options, out);
+    if (!sound) continue;
+    std::copy(slice.begin(), slice.end(), coordinates.begin() + static_cast<std::ptrdiff_t>(dimensions));
+    add_sample(coordinates, values, header, options, out);
   }
   faults.raise();
   if (out.size() == 0)
@@ -213,7 +259,12 @@ bool recognises_alta(std::string_view head, std::uintmax_t) {
 }
 
 Opened open_alta(const std::filesystem::path& path, const ReadOptions& options) {
-  return opened_samples("alta", std::make_shared<const Dataset>(read_alta(path, options)));
+  Opened out = opened_samples("alta", std::make_shared<const Dataset>(read_alta(path, options)));
+  const std::string quantity = out.dataset->provenance.at("source_quantity");
+  out.info.insert(
+      out.info.begin(),
+      {{"holds", quantity == "f_cos" ? "f cos theta_o" : "f, cosine not included"}, {"unit", "1/sr"}, {"nodes", "at the samples"}});
+  return out;
 }
 
 }  // namespace gonio::tabulated

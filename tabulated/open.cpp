@@ -16,11 +16,13 @@
 #include "tabulated/fit_json.hpp"
 #include "tabulated/fred.hpp"
 #include "tabulated/lighttools.hpp"
+#include "tabulated/mbsdf.hpp"
 #include "tabulated/merl.hpp"
 #include "tabulated/openmaterial.hpp"
 #include "tabulated/radiance_xml.hpp"
 #include "tabulated/rgl.hpp"
 #include "tabulated/samples_to_write.hpp"
+#include "tabulated/ssdd.hpp"
 #include "tabulated/zemax.hpp"
 
 namespace gonio::tabulated {
@@ -91,6 +93,14 @@ const std::vector<Format>& formats() {
       {"merl", "90 x 90 x 180 half/difference table of red, green, blue (.binary)", recognises_merl, open_merl, write_merl, ".binary"},
       {"brdf-exr", "table of incident by outgoing directions as an OpenEXR file (.brdf.exr)", recognises_brdf_exr, open_brdf_exr,
        write_samples_as_exr, ".brdf.exr"},
+      {"mbsdf",
+       "measured isotropic BSDF of NVIDIA's Material Definition Language (.mbsdf)",
+       recognises_mbsdf,
+       open_mbsdf,
+       write_mbsdf,
+       ".mbsdf",
+       false,
+       {"nodes", "part"}},
       {"bird-json",
        "rows of f with uncertainties in the universal BRDF data format of the BiRD project (JSON)",
        recognises_bird,
@@ -107,8 +117,8 @@ const std::vector<Format>& formats() {
        ".xompt",
        false,
        {"specular_azimuth_deg"}},
-      {"rgl", "material file of the RGL database, RGB or spectral; written as RGB (.bsdf)", recognises_rgl, open_rgl, write_rgl_rgb, ".bsdf",
-       true},
+      {"rgl", "material file of the RGL database, RGB or spectral; written as RGB (.bsdf)", recognises_rgl, open_rgl, write_rgl_rgb,
+       ".bsdf", true},
       {"rgl-spectral", "the same with a spectrum for every pair (write only)", nullptr, nullptr, write_rgl_spectral, ".bsdf", true},
       {"radiance-xml",
        "BSDF of WINDOW or Radiance as XML, matrix or tensor tree (read only; written as radiance-klems-..., radiance-tree...)",
@@ -144,7 +154,26 @@ const std::vector<Format>& formats() {
        false,
        {"side"}},
       {"abg", "parameters of the ABg model by incidence, for OpticStudio and FRED (.abg)", recognises_abg, open_abg, write_abg, ".abg"},
-      {"alta", "samples as text of the ALTA library, with its #DIM and #PARAM lines (read only)", recognises_alta, open_alta},
+      {"ssdd",
+       "surface scattering distribution data, half-difference coordinates, text (.ssdd)",
+       recognises_ssdd,
+       open_ssdd,
+       write_ssdd,
+       ".ssdd",
+       false,
+       {"data_type"}},
+      {"ssdd-binary", "the same with binary numbers", nullptr, nullptr, write_ssdd_binary, ".ssdd"},
+      {"ssdd-spherical", "the same in spherical coordinates", nullptr, nullptr, write_ssdd_spherical, ".ssdd"},
+      {"ssdd-specular", "the same in coordinates about the specular direction", nullptr, nullptr, write_ssdd_specular, ".ssdd"},
+      {"alta",
+       "samples as text of the ALTA library, with its #DIM and #PARAM lines",
+       recognises_alta,
+       open_alta,
+       write_alta,
+       ".alta",
+       false,
+       {"theta_d_deg", "phi_d_deg"}},
+      {"alta-half", "the same by half and difference angles, isotropic (write only)", nullptr, nullptr, write_alta_half, ".alta"},
       {"csv", "samples as text: theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg, values and uncertainties", recognises_csv, open_csv,
        write_samples_as_csv, ".csv"},
   };

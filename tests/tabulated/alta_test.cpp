@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "tests/shared_data.hpp"
 #include "tests/tabulated/damaged_text.hpp"
 #include "tests/tabulated/faults_text.hpp"
 #include "tests/temporary_folder.hpp"
@@ -62,10 +63,74 @@ TEST_CASE("Other parameterisations and three values per row read too") {
   CHECK(difference.dataset->angles[0].phi_o.radians() == 3);
 }
 
+TEST_CASE("Half-difference coordinates read too; a slice is refused until one says where it lies") {
+  const Opened half = open("#DIM 3 3\n#PARAM_IN RUSIN_TH_TD_PD\n#PARAM_OUT RGB_COLOR\n0.25 0.5 1 .1 .2 .3\n");
+  const HalfDifference at = half_difference(half.dataset->angles[0]);
+  CHECK(std::fabs(at.theta_h.radians() - 0.25) < rounding);
+  CHECK(std::fabs(at.theta_d.radians() - 0.5) < rounding);
+  CHECK(std::fabs(at.phi_d.radians() - 1) < rounding);
+  CHECK(half.dataset->symmetry.isotropic);
+
+  const std::string slice = "#DIM 1 3\n#PARAM_IN COS_TH\n#PARAM_OUT RGB_COLOR\n0.9 .1 .2 .3\n";
+  const std::string faults = test::faults_of([&] { open(slice); });
+  CHECK(faults.find("--assume theta_d_deg=DEGREES") != std::string::npos);
+  CHECK(faults.find("--assume phi_d_deg=DEGREES") != std::string::npos);
+  const test::TemporaryFolder scratch;
+  ReadOptions options;
+  options.assume = {{"theta_d_deg", "30"}, {"phi_d_deg", "90"}};
+  const Opened answered = open_brdf(scratch.file("x", slice), options);
+  const HalfDifference there = half_difference(answered.dataset->angles[0]);
+  CHECK(std::fabs(there.theta_h.cos() - 0.9) < rounding);
+  CHECK(std::fabs(there.theta_d.degrees() - 30) < 1e-9);
+  CHECK(std::fabs(there.phi_d.degrees() - 90) < 1e-9);
+}
+
+TEST_CASE("The published slice of a pink felt is refused for a reason, and read with an answer") {
+  const auto path = test::data_file("alta_misc/pink-felt-1d.alta");
+  if (!path) {
+    WARN("alta_misc/pink-felt-1d.alta is not there");
+    return;
+  }
+  CHECK(test::faults_of([&] { open_brdf(*path); }).find("a slice at one theta_d_deg") != std::string::npos);
+  ReadOptions options;
+  options.assume = {{"theta_d_deg", "0"}, {"phi_d_deg", "0"}};
+  CHECK(open_brdf(*path, options).dataset->size() > 80);
+}
+
+TEST_CASE("Samples written come back: with absolute azimuths, and by half and difference where the BRDF is isotropic") {
+  const test::TemporaryFolder scratch;
+  Dataset data;
+  data.channels = rgb_channels();
+  data.symmetry.isotropic = true;
+  data.angles = {{30_deg, 20_deg, 40_deg, 180_deg}, {60_deg, 0_deg, 10_deg, 300_deg}, {0_deg, 0_deg, 45_deg, 90_deg}};
+  data.f = {{1.0 / 3, 2e-9, 1}, {0.1, -0.2, std::nan("")}, {0.3, 0.4, 1}};
+  data.u = data.f;
+  for (auto& column : data.u) column.assign(3, 0.1);
+  Opened source;
+  source.dataset = std::make_shared<const Dataset>(data);
+  for (const bool half : {false, true}) {
+    const ExportNotes notes = (half ? write_alta_half : write_alta)(source, scratch / "x.alta", {});
+    CHECK(notes.lost.size() >= 2);  // the row with an unknown value, the uncertainties
+    const Opened read = open_brdf(scratch / "x.alta");
+    REQUIRE(read.dataset->size() == 2);
+    CHECK(read.dataset->symmetry.isotropic == half);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const HalfDifference a = half_difference(read.dataset->angles[k]), b = half_difference(data.angles[k]);
+      CHECK(std::fabs(a.theta_h.radians() - b.theta_h.radians()) < rounding);
+      CHECK(std::fabs(a.theta_d.radians() - b.theta_d.radians()) < rounding);
+      CHECK(std::fabs(std::remainder(a.phi_d.degrees() - b.phi_d.degrees(), 360)) < 1e-9);
+      for (std::size_t c = 0; c < 3; ++c) CHECK(read.dataset->f[c][k] == data.f[c][k]);
+    }
+  }
+  data.symmetry.isotropic = false;
+  source.dataset = std::make_shared<const Dataset>(data);
+  CHECK(test::faults_of([&] { write_alta_half(source, scratch / "no", {}); }).find("isotropic") != std::string::npos);
+}
+
 TEST_CASE("Every fault of a file is named at once") {
   const auto faults = [](const std::string& text) { return test::faults_of([&] { open(text); }); };
-  const std::string header = faults("#DIM 1 0\n#VS 1\n#FORMAT binary\n#PARAM_IN COS_TH\n#PARAM_OUT RGB_COLOR\n0.9 1\n");
-  for (const char* word : {"'COS_TH'", "'RGB_COLOR'", "VS '1'", "'binary'", "DIM '1 0'"}) {
+  const std::string header = faults("#DIM 1 0\n#VS 1\n#FORMAT binary\n#PARAM_IN COS_TK\n#PARAM_OUT HSV_COLOR\n0.9 1\n");
+  for (const char* word : {"'COS_TK'", "'HSV_COLOR'", "VS '1'", "'binary'", "DIM '1 0'"}) {
     INFO(word << " in " << header);
     CHECK(header.find(word) != std::string::npos);
   }

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Surface scattering distribution data: .ssdd.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include "tabulated/open.hpp"
+
+namespace gonio::tabulated {
+
+/// "Surface scattering distribution data (SSDD) file format", version 0.3, 2026 (the documentation of libbsdf): a header, then up to four
+/// blocks of key words and numbers in text or little-endian float32, the first angle fastest, f in 1/sr, cosine not included. Read are
+/// blocks `brdf` and `btdf` in spherical, specular and half-difference coordinates, all colour models and both reductions; the distorted
+/// spherical ones are refused, because the document does not say how they are distorted. A file with both gives the brdf,
+/// `--assume data_type=btdf` the other; specular reflectances and transmittances are only named in `info`.
+/// Throws Error(input) with all faults by line, or byte in binary numbers.
+Opened open_ssdd(const std::filesystem::path& path, const ReadOptions& options);
+bool recognises_ssdd(std::string_view head, std::uintmax_t size);
+
+/// Half-difference coordinates (theta_h as the squares of even steps, dense near the peak; theta_d; phi_d folded if the source is
+/// bilateral), numbers as text. A file of this format is written on its own grid. Nodes beyond the horizon and unknown ones repeat their
+/// neighbour, because readers interpolate with every number; negative values stay.
+ExportNotes write_ssdd(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);
+/// The same with binary numbers.
+ExportNotes write_ssdd_binary(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);
+/// The same in spherical and in specular coordinates, as text.
+ExportNotes write_ssdd_spherical(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);
+ExportNotes write_ssdd_specular(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);
+
+}  // namespace gonio::tabulated
