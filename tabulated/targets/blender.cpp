@@ -97,6 +97,7 @@ def scene():
     here.camera = bpy.context.object
     here.camera.data.angle = 0.5235987755982988
     here.render.engine = "CYCLES"
+    here.cycles.use_denoising = False
     here.view_settings.view_transform = "Standard"
     return here
 
