@@ -49,6 +49,7 @@ const char* name(Schema schema) noexcept {
     case Schema::compare: return "compare";
     case Schema::statistics: return "statistics";
     case Schema::bird_brdf: return "bird-brdf";
+    case Schema::export_files: return "export";
     case Schema::openmaterial_brdf: return "openmaterial-brdf";
   }
   return "";

@@ -10,10 +10,25 @@
 namespace gonio {
 
 /// Which schema of data-schemas/*.schema.json a document has to meet.
-enum class Schema { bench, axis_profile, plan, fit, checks, tradeoff, fit_line, choice, compare, statistics, bird_brdf, openmaterial_brdf };
-inline constexpr std::array every_schema{Schema::bench,   Schema::axis_profile, Schema::plan,      Schema::fit,
-                                         Schema::checks,  Schema::tradeoff,     Schema::fit_line,  Schema::choice,
-                                         Schema::compare, Schema::statistics,   Schema::bird_brdf, Schema::openmaterial_brdf};
+enum class Schema {
+  bench,
+  axis_profile,
+  plan,
+  fit,
+  checks,
+  tradeoff,
+  fit_line,
+  choice,
+  compare,
+  statistics,
+  bird_brdf,
+  openmaterial_brdf,
+  export_files
+};
+inline constexpr std::array every_schema{Schema::bench,       Schema::axis_profile, Schema::plan,      Schema::fit,
+                                         Schema::checks,      Schema::tradeoff,     Schema::fit_line,  Schema::choice,
+                                         Schema::compare,     Schema::statistics,   Schema::bird_brdf, Schema::openmaterial_brdf,
+                                         Schema::export_files};
 constexpr std::size_t schema_count = every_schema.size();
 
 /// The first part of the schema's file name, and the middle part of its examples': `bench`, `axis-profile`, `fit-line`, ...

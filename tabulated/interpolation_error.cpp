@@ -215,6 +215,14 @@ double stretch(const GuidedSamples& samples, const std::vector<Case>& cases, con
   return std::clamp(*at, least, most);
 }
 
+/// NaN if none is known.
+double mean_known(const std::vector<double>& values) {
+  double sum = 0, n = 0;
+  for (const double value : values)
+    if (!std::isnan(value)) sum += value, n += 1;
+  return sum / n;
+}
+
 }  // namespace
 
 double InterpolationError::sample_variance(const GuidedSamples& samples, std::size_t channel, std::size_t place) const {
@@ -264,6 +272,7 @@ InterpolationError estimate_interpolation_error(const GuidedSamples& samples, in
 
   std::vector<std::vector<double>> local(channels, std::vector(samples.means.size(), nan));
   std::vector<double> squared(samples.means.size(), nan);
+  std::array<std::vector<double>, 2> relative{squared, squared};
   const bool incidences = samples.spacing.gridded && samples.spacing.incidences > 2;
   in_parallel(places.size(), threads, [&](std::size_t k) {
     for (const bool whole_incidence : {false, true}) {
@@ -278,15 +287,17 @@ InterpolationError estimate_interpolation_error(const GuidedSamples& samples, in
           const double z2 =
               miss->squared / (parts.noise + parts.interpolation + out.sample_variance(samples, c, places[k]) + least_variance);
           local[c][k] = std::isnan(local[c][k]) ? z2 : (local[c][k] + z2) / 2;
+          double& part = relative[whole_incidence ? 1 : 0][k];
+          const double missed = std::sqrt(miss->squared) * samples.scale[c][places[k]] / std::fabs(samples.means.f[c][k]);
+          part = (std::isnan(part) ? 0 : part) + std::min(1.0, missed) / static_cast<double>(channels);
           if (!whole_incidence) squared[k] = (std::isnan(squared[k]) ? 0 : squared[k]) + miss->squared / static_cast<double>(channels);
         }
     }
   });
   out.local = std::move(local);
-  double sum = 0, n = 0;
-  for (const double value : squared)
-    if (!std::isnan(value)) sum += value, n += 1;
-  out.rms = n > 0 ? std::sqrt(sum / n) : nan;
+  out.rms = std::sqrt(mean_known(squared));
+  out.mean_alone = mean_known(relative[0]);
+  out.mean_incidence = mean_known(relative[1]);
   for (std::size_t c = 0; c < channels; ++c) {
     const double factor = stretch(samples, cases, weights, c, out);
     out.variance[c] *= factor, out.bend[c] *= factor, out.noise[c] *= factor;

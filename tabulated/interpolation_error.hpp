@@ -32,6 +32,9 @@ struct InterpolationError {
       local;  ///< [channel][mean] mean (miss/its uncertainty)² of the sample left out alone and with its incidence; NaN: not predicted
   std::size_t n_left_out = 0;  ///< predictions the estimate rests on
   double rms = 0;              ///< of what single samples are missed by, relative to g + floor, all channels
+  /// Mean relative error of samples predicted from the others, |predicted - f|/|f|, at most 1 for each: left out alone, and with the whole
+  /// of their incidence (NaN where there are too few). By these one guide is better than another.
+  double mean_alone = 0, mean_incidence = 0;
 
   /// Variance of y at a place of a channel from its neighbours: noise through the weights, and interpolation.
   struct Parts {

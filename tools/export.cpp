@@ -4,9 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <system_error>
+
 #include "data-schemas/document.hpp"
 #include "tools/brdf_source.hpp"
 #include "tools/export_document.hpp"
+#include "tools/exported_file.hpp"
+#include "tools/measured_table.hpp"
 #include "tools/output.hpp"
 #include "tools/verbs.hpp"
 
@@ -34,50 +39,99 @@ tabulated::MerlValues merl_values_named(const std::string& text) {
   throw Error(ErrorKind::usage, {"--merl-values", "'" + text + "'", "node or cell-mean"});
 }
 
-void report(Console& console, const std::string& in, const std::string& out, const tabulated::Format& format,
-            const tabulated::Opened& opened, const tabulated::ExportNotes& notes) {
+Json source_members(const std::string& in, const tabulated::Opened& opened, const TableReport& table) {
+  Json document = Json::object({{"context", context({hash_in_background(in)}, std::nullopt, opened.simulated)}});
+  document.set("samples", opened.dataset ? Json(static_cast<std::int64_t>(opened.dataset->size())) : Json());
+  document.set("n_masked", masked_document(opened.masked));
+  document.set("table", table.guides.empty() && table.imposed.empty() ? Json() : table_document(table));
+  return document;
+}
+
+void report(Console& console, const std::string& in, const tabulated::Opened& opened, const TableReport& table, const ExportedFile& file) {
   if (console.json) {
-    Json document = Json::object(
-        {{"context", context({hash_in_background(in)}, std::nullopt, opened.simulated)}, {"format", format.name}, {"out", out}});
-    if (opened.dataset) document.set("samples", static_cast<std::int64_t>(opened.dataset->size()));
-    document.set("n_masked", masked_document(opened.masked));
-    document.set("notes", notes_document(notes));
+    Json document = source_members(in, opened, table);
+    for (auto& [key, value] : exported_members(file)) document.set(key, std::move(value));
     console.print_json(document);
     return;
   }
-  console.print(fmt::format("{} ({}) -> {} ({})", in, opened.format, out, format.name));
-  for (const std::string& line : notes_lines(notes)) console.print(line);
+  console.print(fmt::format("{} ({}) -> {} ({}, {} bytes)", in, opened.format, file.out.string(), file.format->name, file.bytes));
+  for (const std::string& line : table_lines(table)) console.print(line);
+  for (const std::string& line : notes_lines(file.notes)) console.print(line);
+  if (file.read_back)
+    console.print(fmt::format("  {:<22} mean {:.3g} %, 95th percentile {:.3g} %, largest {:.3g} % over {} values", "round trip",
+                              100 * file.read_back->mean, 100 * file.read_back->p95, 100 * file.read_back->largest, file.read_back->n));
+  else if (!file.not_read_back.empty())
+    console.print(fmt::format("  {:<22} none: {}", "round trip", file.not_read_back));
+}
+
+/// All formats into a folder, with notes.md and notes.json.
+void report_all(Console& console, const std::string& in, const tabulated::Opened& opened, const TableReport& table,
+                const std::filesystem::path& folder, const std::vector<ExportedFile>& files) {
+  Json document = source_members(in, opened, table);
+  for (auto& [key, value] : exported_members(files)) document.set(key, std::move(value));
+  write_file_atomically(folder / "notes.json", document.dump(2) + "\n");
+  const std::string page =
+      exported_page(files, fmt::format("{} ({})", std::filesystem::path(in).filename().string(), opened.format), table_lines(table));
+  write_file_atomically(folder / "notes.md", page);
+  if (console.json)
+    console.print_json(document);
+  else
+    console.print(page);
 }
 
 }  // namespace
 
 int export_verb(const Arguments& arguments, Console& console) {
   CLI::App app("Writes a table or a fit as a renderer's format.", "export");
-  std::string in, out, to, size = "standard", error, merl_values = "node";
+  std::string in, out, to, size = "standard", error, all, merl_values = "node";
+  int threads = 2;
+  bool read_back = false;
   ReadFlags flags;
+  TableFlags table_flags;
   app.add_option("FILE", in, "Any readable BRDF file, a fit.json included")->required();
-  app.add_option("--to", to, "Format to write: " + writable_formats())->required();
-  app.add_option("--out", out, "Output file")->required();
+  auto* to_option = app.add_option("--to", to, "Format to write: " + writable_formats());
+  auto* out_option = app.add_option("--out", out, "Output file")->needs(to_option);
+  to_option->needs(out_option);
+  app.add_option("--all", all, "Instead: every format that takes the data, into this folder, with notes.md and notes.json")
+      ->excludes(to_option)
+      ->excludes(out_option);
   app.add_option("--size", size, "How fine the grid is: paper, standard or fine");
   app.add_option("--error", error, "Take the smallest grid whose reader gets this mean relative error, such as 1%");
   app.add_option("--merl-values", merl_values, "MERL: values at the nodes (node), or cell-mean for readers that take the nearest cell");
+  app.add_flag("--round-trip", read_back, "Read the file back and say how far its values are from the source's");
+  app.add_option("--threads", threads, "Threads")->check(CLI::Range(1, 256));
+  table_flags.add_to(app);
   flags.add_to(app);
   add_common(app, console);
   if (!parse(app, arguments)) return 0;
+  if (to.empty() && all.empty()) throw Error(ErrorKind::usage, {"gonio export", "neither --to nor --all", "one of them"});
 
-  const tabulated::Format& format = writable_format(to);
   tabulated::WriteOptions options;
+  options.threads = threads;
   options.size = size_named(size);
   if (!error.empty()) {
-    if (!format.adaptive) throw Error(ErrorKind::usage, {"--error", fmt::format("--to {}", to), "a format whose grid can be chosen"});
+    if (!all.empty() || !writable_format(to).adaptive)
+      throw Error(ErrorKind::usage, {"--error", all.empty() ? "--to " + to : "--all", "a format whose grid can be chosen"});
     options.error = error_named(error);
   }
   if (!flags.merl_nodes.empty()) options.merl_nodes = merl_nodes_named(flags.merl_nodes);
   options.merl_values = merl_values_named(merl_values);
+  if (all.empty()) writable_format(to);  // refused before anything is read
+  table_flags.imposed();
   const tabulated::Opened opened = tabulated::open_brdf(in, flags.options());
   console.note_masked(in, opened.masked);
-  const tabulated::ExportNotes notes = format.write(opened, out, options);
-  report(console, in, out, format, opened, notes);
+  TableReport table;
+  const bool tabulates = !all.empty() || needs_table(writable_format(to), table_flags);
+  const tabulated::Opened source = tabulates ? measured_table(opened, table_flags, threads, table) : opened;
+  if (all.empty()) {
+    report(console, in, opened, table, export_file(writable_format(to), source, out, options, read_back));
+    return 0;
+  }
+  std::error_code failed;
+  std::filesystem::create_directories(all, failed);
+  if (failed || !std::filesystem::is_directory(all))
+    throw Error(ErrorKind::input, {"--all " + all, "no folder and none can be made", "a folder"});
+  report_all(console, in, opened, table, all, export_all(source, all, std::filesystem::path(in).stem().string(), options));
   return 0;
 }
 
