@@ -19,4 +19,10 @@ struct ExrImage {
 /// Float32, ZIP compressed; whole or not at all. Error(input) if the file cannot be written.
 void write_exr_image(const ExrImage& image, const std::filesystem::path& path);
 
+/// Pictures of more pixels are not read.
+constexpr std::size_t max_image_pixels = std::size_t{1} << 24;
+/// The float channels and the text attributes `gonio.*` of the first part. Throws Error(input): not OpenEXR, damaged, compressed with loss,
+/// larger than that, a channel that is not float.
+ExrImage read_exr_image(const std::filesystem::path& path);
+
 }  // namespace gonio::tabulated

@@ -13,6 +13,7 @@
 #include "tabulated/bird.hpp"
 #include "tabulated/brdf_exr.hpp"
 #include "tabulated/csv.hpp"
+#include "tabulated/exr_atlas.hpp"
 #include "tabulated/fit_json.hpp"
 #include "tabulated/fred.hpp"
 #include "tabulated/lighttools.hpp"
@@ -23,6 +24,7 @@
 #include "tabulated/rgl.hpp"
 #include "tabulated/samples_to_write.hpp"
 #include "tabulated/ssdd.hpp"
+#include "tabulated/utia.hpp"
 #include "tabulated/zemax.hpp"
 
 namespace gonio::tabulated {
@@ -91,6 +93,21 @@ const std::vector<Format>& formats() {
   // In the order of recognition: text comes last because anything readable could be it.
   static const std::vector<Format> list{
       {"merl", "90 x 90 x 180 half/difference table of red, green, blue (.binary)", recognises_merl, open_merl, write_merl, ".binary"},
+      {"utia",
+       "anisotropic table of the UTIA database, 288 x 288 x 3 numbers (.bin)",
+       recognises_utia,
+       open_utia,
+       write_utia,
+       ".bin",
+       false,
+       {"values"}},
+      {"utia-display", "the same as codes for display (write only)", nullptr, nullptr, write_utia_display, ".bin"},
+      {"exr-atlas", "isotropic table as an OpenEXR picture: tiles phi_d, right theta_h, down theta_d", recognises_exr_atlas, open_exr_atlas,
+       write_exr_atlas, ".exr"},
+      {"exr-atlas-spherical", "the same with tiles of azimuth, right theta_i, down theta_o (write only)", nullptr, nullptr,
+       write_exr_atlas_spherical, ".exr"},
+      {"exr-slice", "picture of the slice phi_d = 90 deg, theta_h right, theta_d up (write only)", nullptr, nullptr, write_exr_slice,
+       ".exr"},
       {"brdf-exr", "table of incident by outgoing directions as an OpenEXR file (.brdf.exr)", recognises_brdf_exr, open_brdf_exr,
        write_samples_as_exr, ".brdf.exr"},
       {"mbsdf",
