@@ -302,7 +302,7 @@ RefitErrors refit_errors(const RefitData& data, const EvaluateFormula& formula) 
       const double log_gap = lit(std::max(0.0, f[c]), cos_o) - lit(wanted, cos_o), gap = (f[c] - wanted) * cos_o;
       logs += log_gap * log_gap;
       squares += gap * gap;
-      if (wanted > 0) relative += data.weight[k] * std::abs(f[c] - wanted) / wanted, weights += data.weight[k];
+      relative += data.weight[k] * std::abs(gap) / (wanted * cos_o + dark_floor), weights += data.weight[k];
     }
   }
   const double count = static_cast<double>(data.f.size());

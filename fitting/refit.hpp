@@ -47,8 +47,9 @@ struct RefitErrors {
   /// What a refit minimises: √(log_rms² + mean square of the logarithm of the ratio of albedos, at 0°, 30° and 60° as far as they are
   /// known). The second term keeps the brightness where a formula cannot follow the tails of a lobe.
   double misfit = 0;
-  double log_rms = 0;                       ///< of ln(f cos theta_o + dark_floor), every pair alike
-  double mean_relative = 0;                 ///< mean |f̂ - f|/f with the weights of the pairs, where f > 0
+  double log_rms = 0;  ///< of ln(f cos theta_o + dark_floor), every pair alike
+  /// Mean of |f̂ - f| cos theta_o/(f cos theta_o + dark_floor) with the weights of the pairs.
+  double mean_relative = 0;
   double rms_f_cos = 0;                     ///< of (f̂ - f) cos theta_o [1/sr], every pair alike
   std::optional<double> albedo_difference;  ///< f̂'s directional albedo minus the source's where it is largest, at the same incidences
 };

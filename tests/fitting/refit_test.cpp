@@ -75,7 +75,8 @@ TEST_CASE("a parameter the target cannot reach ends at its bound, and the error 
 TEST_CASE("errors are those of a known difference") {
   const fitting::RefitData data = fitting::refit_data(AnalyticBrdf("lambert", single_channel("value"), {{0.5}}));
   const fitting::RefitErrors errors = fitting::refit_errors(data, [](const Direction&, const Direction&, double* f) { *f = 0.55 / pi; });
-  CHECK(errors.mean_relative == Approx(0.1).epsilon(1e-12));
+  CHECK(errors.mean_relative == Approx(0.1).epsilon(0.03));  // of the floor under what is dark
+  CHECK(errors.mean_relative < 0.1);
   REQUIRE(errors.albedo_difference);
   CHECK(*errors.albedo_difference == Approx(0.05).epsilon(1e-2));  // of the quadrature over half vectors
   double sum = 0;

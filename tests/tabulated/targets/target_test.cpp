@@ -7,6 +7,7 @@
 #include "brdf/error.hpp"
 #include "tests/random_directions.hpp"
 #include "tests/tabulated/targets/exported.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
 
@@ -100,4 +101,14 @@ TEST_CASE("numbers are written in full and as real numbers; a template with an u
   CHECK(test::targets::filled("a {{b}} c{{b}}", {{"b", "x"}}) == "a x cx");
   CHECK_THROWS_AS(test::targets::filled("{{c}}", {{"b", "x"}}), Error);
   CHECK_THROWS_AS(test::targets::filled("{{b", {{"b", "x"}}), Error);
+}
+
+TEST_CASE("docs/renderers.md has a row for every target and every material") {
+  const std::string page = test::read_file(GONIO_SOURCE "/docs/renderers.md");
+  REQUIRE(!page.empty());
+  for_each_form([&](const auto& target, const auto& form) {
+    INFO(target.name << ", " << form.formula.name);
+    CHECK(page.find("| `" + std::string(target.name) + "`") != std::string::npos);
+    CHECK((page.find("| " + std::string(form.formula.name) + " |") != std::string::npos || target.forms.size() == 1));
+  });
 }
