@@ -26,7 +26,7 @@ ExportNotes write_radiance_klems_half(const Opened& source, const std::filesyste
 ExportNotes write_radiance_klems_quarter(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);
 
 /// A tensor tree of rank 3 (isotropic sources only) or 4: cells of equal projected solid angle, joined where they hardly differ. `size`
-/// gives the finest division of an axis (rank 3: 32, 64, 128; rank 4: 16, 32, 64); `error` takes the coarsest one that keeps it.
+/// gives the finest division of an axis (rank 3: 32, 64, 128; rank 4: 8, 16, 32); `error` takes the coarsest one that keeps it.
 /// Otherwise as above, with CIE-u and CIE-v for colour.
 ExportNotes write_radiance_tree3(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);
 ExportNotes write_radiance_tree4(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);

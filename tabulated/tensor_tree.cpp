@@ -99,9 +99,19 @@ ParsedTree::ParsedTree(std::string_view text, std::size_t dimensions) {
 void TensorTree::append_text(std::size_t index, std::size_t depth, std::string& out) const {
   const Node& node = nodes_[index];
   const std::size_t count = std::size_t{1} << (node.log2_grid < 0 ? dimensions_ : static_cast<std::size_t>(node.log2_grid) * dimensions_);
+  const auto is_value = [&](std::size_t k) { return nodes_[node.first + k].log2_grid == 0; };
+  bool values_alone = node.log2_grid < 0;
+  for (std::size_t k = 0; k < count && values_alone; ++k) values_alone = is_value(k);
   out.append(depth, ' ');
   out += '{';
-  if (node.log2_grid < 0) {
+  if (values_alone) {
+    // As a grid, in which the last dimension runs fastest: the bits of the child's number backwards.
+    for (std::size_t k = 0; k < count; ++k) {
+      std::size_t child = 0;
+      for (std::size_t i = 0; i < dimensions_; ++i) child |= ((k >> i) & 1) << (dimensions_ - 1 - i);
+      fmt::format_to(std::back_inserter(out), "{}{}", k == 0 ? "" : " ", values_[nodes_[node.first + child].first]);
+    }
+  } else if (node.log2_grid < 0) {
     out += '\n';
     for (std::size_t k = 0; k < count; ++k) append_text(node.first + k, depth + 1, out);
     out.append(depth, ' ');
