@@ -53,7 +53,7 @@ int tradeoff_verb(const Arguments& arguments, Console& console) {
     effort.progress = [&](double part, std::string_view what) { bar.reach(static_cast<std::size_t>(percent * part), std::string(what)); };
     measured = topic.measure(effort);
   }
-  tradeoff::mark_front(measured.points);
+  tradeoff::mark_front(measured.points, measured.by_size);
   const auto file = [&](const char* ending) { return folder / (name + ending); };
   const Json document = tradeoff::document(name, effort.quick, measured, context({}, tradeoff::seed, true));
   write_file_atomically(file(".json"), document.dump(2) + "\n");

@@ -122,7 +122,7 @@ Measured measure_albedo(const Effort& effort) {
       Panel panel;
       panel.name = fmt::format("{} lobe, s = {}", lobe == Lobe::mirror ? "mirror (Phong)" : "half-vector (Blinn-Phong)", plain(s));
       panel.error_floors = {{std::numeric_limits<double>::epsilon() / 2, "rounding of a double, 1.1e-16"}};
-      panel.time_limit = {one_value, fmt::format("one value of the lobe, {:.0f} ns", one_value * 1e9)};
+      panel.limit = {one_value, fmt::format("one value of the lobe, {:.0f} ns", one_value * 1e9)};
       panel.drawn = s == 10 || s == 1e3 || s == 1e6;
       for (const Method& method : list) {
         effort.progress((done + static_cast<double>(&method - list.data()) / static_cast<double>(list.size())) / all, panel.name);

@@ -22,8 +22,10 @@ Json document(std::string_view topic, bool quick, const Measured& measured, Json
   for (const Panel& panel : measured.panels) {
     Json floors = Json::array();
     for (const Line& floor : panel.error_floors) floors.push_back(line(floor));
-    panels.push_back(Json::object(
-        {{"name", panel.name}, {"drawn", panel.drawn}, {"error_floors", std::move(floors)}, {"time_limit_s", line(panel.time_limit)}}));
+    panels.push_back(Json::object({{"name", panel.name},
+                                   {"drawn", panel.drawn},
+                                   {"error_floors", std::move(floors)},
+                                   {measured.by_size ? "size_limit_bytes" : "time_limit_s", line(panel.limit)}}));
   }
   for (const Point& point : measured.points)
     points.push_back(Json::object(
@@ -33,6 +35,7 @@ Json document(std::string_view topic, bool quick, const Measured& measured, Json
          {"time_s",
           Json::object(
               {{"median", point.time.median_s}, {"least", point.time.least_s}, {"most", point.time.most_s}, {"runs", point.time.runs}})},
+         {"bytes", point.bytes ? Json(*point.bytes) : Json()},
          {"error", point.error ? Json(*point.error) : Json()},
          {"worst_at", point.worst_at},
          {"on_front", point.on_front}}));
@@ -48,11 +51,12 @@ Json document(std::string_view topic, bool quick, const Measured& measured, Json
 }
 
 std::string csv(const Measured& measured) {
-  std::string out = "panel,method,setting,time_median_s,time_least_s,time_most_s,runs,error,worst_at,on_front\n";
+  std::string out = "panel,method,setting,time_median_s,time_least_s,time_most_s,runs,bytes,error,worst_at,on_front\n";
   for (const Point& point : measured.points)
-    out += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", quoted(point.panel), quoted(point.method), quoted(point.setting),
+    out += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", quoted(point.panel), quoted(point.method), quoted(point.setting),
                        point.time.median_s, point.time.least_s, point.time.most_s, point.time.runs,
-                       point.error ? fmt::format("{}", *point.error) : "nan", quoted(point.worst_at), point.on_front ? 1 : 0);
+                       point.bytes ? fmt::format("{}", *point.bytes) : "", point.error ? fmt::format("{}", *point.error) : "nan",
+                       quoted(point.worst_at), point.on_front ? 1 : 0);
   return out;
 }
 

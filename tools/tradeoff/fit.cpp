@@ -181,7 +181,7 @@ Measured measure_fit(const Effort& effort) {
         },
         1, 1e-3);
     panel.name = fmt::format("{}, {} samples", which.panel, tables[0]->size());
-    panel.time_limit = {sum.median_s, "adding up the samples"};
+    panel.limit = {sum.median_s, "adding up the samples"};
     for (const Way& way : which.ways) {
       effort.progress(done++ / all, fmt::format("{}: {} {}", panel.name, way.method, way.setting));
       double square = 0;

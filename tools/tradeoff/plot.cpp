@@ -37,8 +37,8 @@ constexpr std::size_t key_columns = 3;
 constexpr double key_line = 0.03;  // of the height of the picture
 
 /// The title above all panels, and below them what marker stands for what method. Drawn once: labels are unset after the first panel.
-std::string heading_and_key(const std::string& title, const std::vector<std::string>& methods, double foot) {
-  std::string text = fmt::format("set label {} at screen 0.5,0.98 center font ',15' noenhanced\n", gnuplot_quoted(title));
+std::string heading_and_key(const Measured& measured, const std::vector<std::string>& methods, double foot) {
+  std::string text = fmt::format("set label {} at screen 0.5,0.98 center font ',15' noenhanced\n", gnuplot_quoted(measured.title));
   const auto place = [&](std::size_t k) {
     return fmt::format("at screen {},{} left", 0.06 + 0.32 * static_cast<double>(k % key_columns),
                        foot - 0.03 - key_line * static_cast<double>(k / key_columns));
@@ -46,9 +46,12 @@ std::string heading_and_key(const std::string& title, const std::vector<std::str
   for (std::size_t m = 0; m < methods.size(); ++m)
     text += fmt::format("set label {} {} point pt {} ps 1.2 lc rgb '{}' offset character 1.2,0 noenhanced\n", gnuplot_quoted(methods[m]),
                         place(m), markers[m % styles], colours[m % styles]);
-  return text + fmt::format("set label '— Pareto front; bars: fastest and slowest run' {} textcolor rgb '#777777' noenhanced\n",
-                            place(methods.size()));
+  return text + fmt::format("set label '— Pareto front{}' {} textcolor rgb '#777777' noenhanced\n",
+                            measured.by_size ? "" : "; bars: fastest and slowest run", place(methods.size()));
 }
+
+double cheapest(const Point& point, const Measured& measured) { return measured.by_size ? cost(point, true) : point.time.least_s; }
+double dearest(const Point& point, const Measured& measured) { return measured.by_size ? cost(point, true) : point.time.most_s; }
 
 double least_floor(const Panel& panel) {
   double least = useless;
@@ -56,11 +59,12 @@ double least_floor(const Panel& panel) {
   return least;
 }
 
-std::string data_block(const std::string& name, const std::vector<const Point*>& points, double unit, double least_error) {
+std::string data_block(const std::string& name, const std::vector<const Point*>& points, const Measured& measured, double least_error) {
+  const double unit = measured.time_unit_s;
   std::string text = fmt::format("${} << EOD\n", name);
   for (const Point* point : points)
-    text += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} \"{}\"\n", point->time.median_s / unit, std::max(shown(*point), least_error),
-                        point->time.least_s / unit, point->time.most_s / unit, point->setting);
+    text += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} \"{}\"\n", cost(*point, measured.by_size) / unit, std::max(shown(*point), least_error),
+                        cheapest(*point, measured) / unit, dearest(*point, measured) / unit, point->setting);
   return text + "EOD\n";
 }
 
@@ -85,10 +89,10 @@ std::string plot_script(const Measured& measured, const std::string& terminal, c
   Range time, error;
   error.add(useless);
   for (const Panel* panel : panels) {
-    time.add(panel->time_limit.value / measured.time_unit_s);
+    time.add(panel->limit.value / measured.time_unit_s);
     error.add(least_floor(*panel));
     for (const Point* point : in_panel(*panel, [](const Point&) { return true; })) {
-      time.add(point->time.least_s / measured.time_unit_s), time.add(point->time.most_s / measured.time_unit_s);
+      time.add(cheapest(*point, measured) / measured.time_unit_s), time.add(dearest(*point, measured) / measured.time_unit_s);
       if (shown(*point) > 0.01 * least_floor(*panel)) error.add(shown(*point));
     }
   }
@@ -104,12 +108,13 @@ std::string plot_script(const Measured& measured, const std::string& terminal, c
   for (std::size_t p = 0; p < panels.size(); ++p) {
     for (std::size_t m = 0; m < methods.size(); ++m)
       text += data_block(fmt::format("p{}m{}", p, m), in_panel(*panels[p], [&](const Point& q) { return q.method == methods[m]; }),
-                         measured.time_unit_s, least_floor(*panels[p]) / 4);
+                         measured, least_floor(*panels[p]) / 4);
     auto front = in_panel(*panels[p], [](const Point& q) { return q.on_front; });
-    std::sort(front.begin(), front.end(), [](const Point* a, const Point* b) { return a->time.median_s < b->time.median_s; });
-    text += data_block(fmt::format("p{}front", p), front, measured.time_unit_s, least_floor(*panels[p]) / 4);
+    std::sort(front.begin(), front.end(),
+              [&](const Point* a, const Point* b) { return cost(*a, measured.by_size) < cost(*b, measured.by_size); });
+    text += data_block(fmt::format("p{}front", p), front, measured, least_floor(*panels[p]) / 4);
   }
-  text += "set multiplot\n" + heading_and_key(measured.title, methods, foot);
+  text += "set multiplot\n" + heading_and_key(measured, methods, foot);
   text += fmt::format(
       "set logscale xy\nset format x '10^{{%L}}'\nset format y '10^{{%L}}'\nset grid lc rgb '#e4e4e4' lt 1\nset border lc rgb '#444444'\n"
       "set xrange [{}:{}]\nset yrange [{}:{}]\nset ytics 100\nset bars 0.5\nunset key\nset lmargin 9\nset rmargin 2\nset bmargin 3.2\nset "
@@ -123,11 +128,11 @@ std::string plot_script(const Measured& measured, const std::string& terminal, c
     text += fmt::format("set title {} font ',12' offset 0,-0.6 noenhanced\n", gnuplot_quoted(panel.name));
     text += fmt::format("set xlabel {} offset 0,0.4 noenhanced\nset ylabel {} offset 1,0 noenhanced\n",
                         gnuplot_quoted(fmt::format("{} [{}]", measured.time_of, measured.time_unit)), gnuplot_quoted(measured.error_of));
-    const double limit = panel.time_limit.value / measured.time_unit_s;
+    const double limit = panel.limit.value / measured.time_unit_s;
     text += fmt::format(
         "set arrow from {0},graph 0 to {0},graph 1 nohead lc rgb '#888888' dt 3 lw 1.5\nset label {1} at {0},graph 0.85 rotate by 90 "
         "right offset character 0.8,0 font ',9' textcolor rgb '#666666' noenhanced\n",
-        limit, gnuplot_quoted(panel.time_limit.label));
+        limit, gnuplot_quoted(panel.limit.label));
     for (const Line& floor : panel.error_floors)
       text += fmt::format(
           "set arrow from graph 0,first {0} to graph 1,first {0} nohead lc rgb '#888888' dt 2 lw 1.5\nset label {1} at graph 0.98,first "

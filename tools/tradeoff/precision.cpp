@@ -95,7 +95,7 @@ class Places {
                           {std::numeric_limits<double>::epsilon() / 2, "rounding of a double, 1.1e-16"}};
     // One of the values for a kernel that makes many evaluations from one input.
     const double limit = evaluations_ > 1 ? reading.median_s / 6 : reading.median_s;
-    panel.time_limit = {limit, fmt::format("reading the inputs, {:.1f} ns", limit * 1e9)};
+    panel.limit = {limit, fmt::format("reading the inputs, {:.1f} ns", limit * 1e9)};
     out_.panels.push_back(std::move(panel));
   }
 

@@ -23,8 +23,9 @@ struct Point {
   Timing time;
   /// Relative error, the worst over the cases of the panel; none where the result was not a number.
   std::optional<double> error;
-  std::string worst_at;   ///< the case with that error
-  bool on_front = false;  ///< no other point of the panel is both faster and nearer the truth
+  std::string worst_at;         ///< the case with that error
+  std::optional<double> bytes;  ///< of the table or the file, where the setting makes one
+  bool on_front = false;        ///< no other point of the panel is both cheaper and nearer the truth
 };
 
 /// A labelled line of a plot.
@@ -37,14 +38,15 @@ struct Line {
 struct Panel {
   std::string name;
   std::vector<Line> error_floors;  ///< no method of a kind can be nearer the truth than this; relative
-  Line time_limit;                 ///< no method can be faster than this; seconds
+  Line limit;                      ///< no method can be cheaper than this; seconds, or bytes if the topic goes by them
   bool drawn = true;               ///< whether the plot shows it; the table shows all
 };
 
 struct Measured {
   std::string title, time_of, error_of;  ///< headings: of the plot, the time axis, the error axis
-  double time_unit_s = 1;                ///< the plot's unit of time
+  double time_unit_s = 1;                ///< the plot's unit of time; of bytes if `by_size`
   std::string time_unit;
+  bool by_size = false;         ///< plot, fronts and advice are of bytes against error, not of time; every point has its bytes
   std::vector<double> targets;  ///< errors for which the text names the cheapest setting
   std::vector<Panel> panels;
   std::vector<Point> points;
@@ -67,9 +69,13 @@ const std::vector<Topic>& topics();
 Measured measure_albedo(const Effort& effort);
 Measured measure_fit(const Effort& effort);
 Measured measure_precision(const Effort& effort);
+Measured measure_table(const Effort& effort);
+Measured measure_export(const Effort& effort);
 
-/// Marks the points that no other point of their panel beats in both time and error.
-void mark_front(std::vector<Point>& points);
+/// What a point costs: the median of its time [s], or its bytes.
+double cost(const Point& point, bool by_size);
+/// Marks the points that no other point of their panel beats in both cost and error.
+void mark_front(std::vector<Point>& points, bool by_size = false);
 /// One paragraph: the cheapest setting for each target that holds in every panel, what never gets there, and the topic's remarks.
 std::string advice(const Measured& measured);
 /// The document of `gonio tradeoff` (data-schemas/tradeoff.schema.json) and its points as CSV.
