@@ -176,6 +176,21 @@ std::string rivals_text(const std::vector<std::pair<std::string_view, double>>& 
   return out;
 }
 
+/// What this source has and this formula has no parameter for.
+std::vector<std::string> beyond(const Opened& opened, const fitting::RefitData& data, const TargetFormula& formula) {
+  std::vector<std::string> out;
+  if (const auto* model = dynamic_cast<const AnalyticBrdf*>(opened.brdf.get())) {
+    const std::string name(model->model().name);
+    const auto terms = 1 + std::count(name.begin(), name.end(), '+');
+    if (terms > 1) out.push_back(fmt::format("the source, {}, is a sum of {} lobes: here stands one", name, terms));
+    if (name.find("retro") != std::string::npos) out.push_back("the source reflects back to the light: no lobe of this material does");
+  }
+  const auto anisotropy = [](const FormulaParameter& p) { return p.if_isotropic.has_value(); };
+  if (!data.isotropic && std::none_of(formula.parameters.begin(), formula.parameters.end(), anisotropy))
+    out.push_back("the source is anisotropic, or not known to be isotropic: this material is isotropic");
+  return out;
+}
+
 ExportNotes write_target(const targets::RenderTarget& target, const Opened& opened, const std::filesystem::path& path) {
   if (!opened.brdf) throw Error(ErrorKind::input, {opened.format, "nothing that can be evaluated", "samples, a table or a model"});
   ExportNotes notes;
@@ -218,6 +233,7 @@ ExportNotes write_target(const targets::RenderTarget& target, const Opened& open
   notes.facts.emplace_back(read ? "naive conversion" : "naive (of a GGX fit)", errors_text(refit.naive_errors));
   notes.facts.emplace_back("after the refit", errors_text(refit.errors));
   if (rivals.size() > 1) notes.facts.emplace_back("misfit by material", rivals_text(rivals));
+  for (std::string& sentence : beyond(opened, data, formula)) notes.lost.push_back(std::move(sentence));
   for (const std::size_t p : refit.at_bound)
     notes.lost.push_back(fmt::format("{} ended at a bound of the target, {} to {}", formula.parameters[p].name, formula.parameters[p].lower,
                                      formula.parameters[p].upper));

@@ -140,11 +140,57 @@ vec3 brdf(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y)
 
 }  // namespace blinn_phong
 
+// ---------------------------------------------------------------- Phong
+namespace phong {
+
+using blinn_phong::s;
+using blinn_phong::slots;
+constexpr std::size_t rho_d = blinn_phong::rho_d, rho_s = blinn_phong::rho_s;
+
+/// cos ψ of wo against the mirrored wi.
+EvaluateFormula prepare(const ChannelValues& values) {
+  return [values, n = values[0][s]](const Direction& wi, const Direction& wo, double* f) {
+    std::fill(f, f + values.size(), 0.0);
+    if (!above(wi, wo)) return;
+    const double cos_psi = wi.z() * wo.z() - wi.x() * wo.x() - wi.y() * wo.y();
+    const double lobe = cos_psi > 0 ? (n + 2) * inverse_pi / 2 * std::pow(cos_psi, n) : 0;
+    for (std::size_t c = 0; c < values.size(); ++c) f[c] = values[c][rho_d] * inverse_pi + values[c][rho_s] * lobe;
+  };
+}
+
+std::vector<double> convert(const LobeSummary& summary, bool, std::size_t c) {
+  const double a = mean_width(summary);
+  return {summary.rho_d[c], summary.f0[c], (2 / (a * a) - 2) / 4};
+}
+std::vector<ChannelValues> starts(const LobeSummary& summary) { return converted_starts(summary, slots(), false, convert); }
+
+std::string text(const Material& m) {
+  return filled(std::string(head) + R"(const vec3 rho_d = vec3({{rho_d}});
+const vec3 rho_s = vec3({{rho_s}});
+const float s = {{s}};
+
+vec3 brdf(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y)
+{
+    const float pi = 3.14159265358979324;
+    if (dot(N, L) <= 0.0 || dot(N, V) <= 0.0) return vec3(0.0);
+    float c = 2.0 * dot(N, L) * dot(N, V) - dot(L, V);  // of V against the mirrored L
+    float lobe = c > 0.0 ? (s + 2.0) / (2.0 * pi) * pow(c, s) : 0.0;
+    return rho_d / pi + rho_s * lobe;
+}
+)",
+                {{"comments", commented(m.comments, "// ")},
+                 {"rho_d", triple(m.colour(rho_d), ", ")},
+                 {"rho_s", triple(m.colour(rho_s), ", ")},
+                 {"s", real(m.shared(s))}});
+}
+
+}  // namespace phong
+
 }  // namespace
 
 RenderTarget glsl_target() {
   return {"glsl",
-          "GLSL function of a GGX, a Ward or a Blinn-Phong lobe",
+          "GLSL function of a GGX, a Ward, a Blinn-Phong or a Phong lobe",
           ".glsl",
           {{reference_formula(), ggx_text},
            {{"ward-duer-gm",
@@ -166,7 +212,17 @@ RenderTarget glsl_target() {
              blinn_phong::prepare,
              blinn_phong::starts,
              {"one lobe and a Lambertian part: no second lobe, no Fresnel effect, isotropic"}},
-            blinn_phong::text}},
+            blinn_phong::text},
+           {{"phong",
+             "E. P. Lafortune, Y. D. Willems, report CW197, 1994",
+             "s is the exponent of the cosine to the mirror direction",
+             "none",
+             "none: the lobe has one colour at every angle",
+             blinn_phong::slots(),
+             phong::prepare,
+             phong::starts,
+             {"one lobe and a Lambertian part: no second lobe, no Fresnel effect, isotropic"}},
+            phong::text}},
           {"in a shader with floats of 32 bits a lobe narrower than alpha 0.003 loses digits at its peak"}};
 }
 

@@ -148,6 +148,30 @@ class MitsubaParameters(interop.TestCase):
         printed = interop.gonio("export", self.folder / "ward-duer-gm.fit.json", "--to", "mitsuba", "--out", self.folder / "again.xml")
         self.check("after the refit" in printed and "naive conversion" in printed, "errors are printed")
 
+    def test_two_widths(self):
+        # Isotropic formulas are a special case of these; here the axes are told apart.
+        rows = ["theta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value"]
+        pairs = [(i, p, o, q) for i in range(0, 70, 20) for p in range(0, 180, 30) for o in range(0, 80, 8) for q in range(0, 360, 30)]
+        given = ("--param", "rho_d=0.1", "--param", "rho_s=0.3", "--param", "alpha_x=0.15", "--param", "alpha_y=0.35")
+        for pair, value in zip(pairs, interop.evaluate("ward-duer-gm-anisotropic", pairs, *given)):
+            rows.append(",".join(map(repr, [*pair, *value])))
+        samples, scene = self.folder / "samples.csv", self.folder / "scene.xml"
+        samples.write_text("\n".join(rows) + "\n")
+        interop.gonio("export", samples, "--to", "mitsuba", "--out", scene)
+        v = {name: value[0] for name, value in self.values(scene).items()}
+        self.check(2 * v["alpha_u"] < v["alpha_v"], f"a lobe wider along y: {v}")
+        along = self.evaluated(scene, [((0.5, 0, 0.75**0.5), (0, 0, 1))])[0][0]
+        across = self.evaluated(scene, [((0, 0.5, 0.75**0.5), (0, 0, 1))])[0][0]
+        self.check(across > 1.5 * along, f"a half vector along y is nearer to the lobe: {across!r} against {along!r}")
+
+    def test_the_scene_renders(self):
+        scene = self.folder / "scene.xml"
+        interop.gonio("export", self.fit("ggx", rho_d=0.2, f0=0.04, f90=1, alpha=0.2), "--to", "mitsuba", "--out", scene)
+        loaded = self.mitsuba.load_file(str(scene))
+        picture = self.numpy.array(self.mitsuba.render(loaded, spp=1))
+        self.check(picture.shape == (256, 256, 3) and picture.min() >= 0, "a picture of the scene's size")
+        self.check(0.1 < picture[118:138, 118:138].mean() < 10, f"a lit sphere in its middle: {picture[118:138, 118:138].mean()}")
+
     def test_the_printed_error_is_that_of_the_real_program(self):
         # The share of pairs differs from the grid of the refit; the figure is of the same size.
         fit = self.fit("ward-duer-gm", rho_d=0.2, rho_s=0.1, alpha=0.2)

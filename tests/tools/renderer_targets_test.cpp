@@ -84,6 +84,18 @@ TEST_CASE("one channel becomes grey and is told; a fit that a target expresses e
   CHECK(test::read_file(out).find("vec3 brdf(") != std::string::npos);
 }
 
+TEST_CASE("a sum of lobes is told to have become one") {
+  const test::TemporaryFolder folder;
+  const std::string two = "ggx+phong --param rho_d=.2 --param f0=.05 --param f90=1 --param alpha=.1 --param rho_s=.2 --param s=8";
+  const auto samples = samples_of(folder, two, "value"), fit = folder / "fit.json", out = folder / "material.glsl";
+  REQUIRE(run_gonio("fit " + quoted(samples) + " --model ggx+phong --out " + quoted(fit)).code <= 1);
+  const auto outcome = run_gonio("export " + quoted(fit) + " --to glsl --out " + quoted(out));
+  INFO(outcome.err);
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.out.find("ggx+phong, is a sum of 2 lobes") != std::string::npos);
+  CHECK(outcome.out.find("naive (of a GGX fit)") != std::string::npos);
+}
+
 TEST_CASE("a format that nobody knows is refused with the renderers among the names; --error needs a grid") {
   const test::TemporaryFolder folder;
   const auto samples = samples_of(folder, ggx, "value");
