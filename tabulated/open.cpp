@@ -10,12 +10,15 @@
 #include "brdf/error.hpp"
 #include "tabulated/abg.hpp"
 #include "tabulated/alta.hpp"
+#include "tabulated/astm.hpp"
 #include "tabulated/bird.hpp"
 #include "tabulated/brdf_exr.hpp"
+#include "tabulated/cornell.hpp"
 #include "tabulated/csv.hpp"
 #include "tabulated/exr_atlas.hpp"
 #include "tabulated/fit_json.hpp"
 #include "tabulated/fred.hpp"
+#include "tabulated/lab_csv.hpp"
 #include "tabulated/lighttools.hpp"
 #include "tabulated/mbsdf.hpp"
 #include "tabulated/merl.hpp"
@@ -197,6 +200,38 @@ const std::vector<Format>& formats() {
        false,
        {"theta_d_deg", "phi_d_deg"}},
       {"alta-half", "the same by half and difference angles, isotropic (write only)", nullptr, nullptr, write_alta_half, ".alta"},
+      {"rt300s",
+       "readings of an RT-300S as CSV, relative to a white (read only)",
+       recognises_rt300s,
+       open_rt300s,
+       nullptr,
+       "",
+       false,
+       {"white", "blocked", "isotropic"}},
+      {"nist",
+       "Mueller matrix BRDF of NIST as CSV, its unpolarised element (read only)",
+       recognises_nist,
+       open_nist,
+       nullptr,
+       "",
+       false,
+       {"isotropic"}},
+      {"cornell",
+       "spectral samples of Cornell University (.brdf, read only)",
+       recognises_cornell,
+       open_cornell,
+       nullptr,
+       "",
+       false,
+       {"isotropic"}},
+      {"astm",
+       "samples as ASTM E1392 and E2387 list them (.astm)",
+       recognises_astm,
+       open_astm,
+       write_astm,
+       ".astm",
+       false,
+       {"specular", "side", "isotropic"}},
       {"csv", "samples as text: theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg, values and uncertainties", recognises_csv, open_csv,
        write_samples_as_csv, ".csv"},
   };
