@@ -25,8 +25,8 @@ namespace gonio::tabulated {
 /// a wrong number of values, text, an infinity, no sample left.
 Dataset read_alta(const std::filesystem::path& path, const ReadOptions& options);
 
-/// The samples with `#PARAM_IN SPHERICAL_TL_PL_TV_PV`; three channels r, g, b as RGB_COLOR. Rows with an unknown value are left out, angles
-/// are rounded once to radians. Throws Error(input) for transmission.
+/// The samples with `#PARAM_IN ISOTROPIC_TV_TL_DPHI` if they are isotropic, else SPHERICAL_TL_PL_TV_PV; channels r, g, b as RGB_COLOR. Rows
+/// with an unknown value are left out, angles are rounded once to radians. Throws Error(input) for transmission.
 ExportNotes write_alta(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);
 /// The same with `#PARAM_IN RUSIN_TH_TD_PD`, for isotropic sources.
 ExportNotes write_alta_half(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);

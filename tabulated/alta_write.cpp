@@ -31,11 +31,13 @@ std::string header(const Dataset& data, const char* parameterisation, int dimens
 
 ExportNotes write(bool half, const Opened& source, const std::filesystem::path& path, const WriteOptions& options) {
   ExportNotes notes;
-  const auto data = samples_to_write(source, options, notes);
+  const auto data = with_both_sides(samples_to_write(source, options, notes));
   if (data->side == Side::transmission) throw Error(ErrorKind::input, {path.string(), "samples of transmission", "reflection"});
   if (half && !data->symmetry.isotropic)
     throw Error(ErrorKind::input, {path.string(), "samples that are not known to be isotropic", "an isotropic BRDF, or the format alta"});
-  std::string text = half ? header(*data, "RUSIN_TH_TD_PD", 3) : header(*data, "SPHERICAL_TL_PL_TV_PV", 4);
+  const bool isotropic = data->symmetry.isotropic;
+  const char* coordinates = half ? "RUSIN_TH_TD_PD" : isotropic ? "ISOTROPIC_TV_TL_DPHI" : "SPHERICAL_TL_PL_TV_PV";
+  std::string text = header(*data, coordinates, isotropic ? 3 : 4);
   std::size_t left_out = 0;
   for (std::size_t k = 0; k < data->size(); ++k) {
     if (std::any_of(data->f.begin(), data->f.end(), [&](const std::vector<double>& column) { return std::isnan(column[k]); })) {
@@ -50,6 +52,8 @@ ExportNotes write(bool half, const Opened& source, const std::filesystem::path& 
     if (half) {
       const HalfDifference angles = half_difference(at);
       for (const Angle& angle : {angles.theta_h, angles.theta_d, angles.phi_d}) add(angle.radians());
+    } else if (isotropic) {
+      for (const Angle& angle : {at.theta_o, at.theta_i, at.phi_o - at.phi_i}) add(angle.radians());
     } else {
       for (const Angle& angle : {at.theta_i, at.phi_i, at.theta_o, at.phi_o}) add(angle.radians());
     }
@@ -59,11 +63,9 @@ ExportNotes write(bool half, const Opened& source, const std::filesystem::path& 
   if (left_out == data->size()) throw Error(ErrorKind::input, {path.string(), "no sample that is known in every channel", "at least one"});
   write_file_atomically(path, text);
   notes.files = {path};
-  notes.facts.emplace_back("coordinates", half ? "RUSIN_TH_TD_PD" : "SPHERICAL_TL_PL_TV_PV");
+  notes.facts.emplace_back("coordinates", coordinates);
   if (left_out > 0) notes.lost.push_back(fmt::format("{} samples that are not known in every channel", left_out));
   if (data->has_uncertainty()) notes.lost.emplace_back("uncertainties have no place in the format");
-  if (!data->symmetry.isotropic || half) return notes;
-  notes.lost.emplace_back("that the BRDF is isotropic: the coordinates have phi_i");
   return notes;
 }
 

@@ -46,7 +46,8 @@ DirectionTable::Point DirectionTable::point_of(const Direction& wi, const Direct
   const double r = std::hypot(wi.x(), wi.y());
   if (r < same_point) return {0, 0, wi.z(), std::hypot(wo.x(), wo.y()), 0, wo.z()};  // at the normal wo has no azimuth either
   const double c = wi.x() / r, s = wi.y() / r;
-  return {r, 0, wi.z(), c * wo.x() + s * wo.y(), c * wo.y() - s * wo.x(), wo.z()};
+  const double across = c * wo.y() - s * wo.x();
+  return {r, 0, wi.z(), c * wo.x() + s * wo.y(), dataset_->symmetry.bilateral ? std::fabs(across) : across, wo.z()};
 }
 
 void DirectionTable::sort(std::size_t first, std::size_t last, std::size_t axis) const {

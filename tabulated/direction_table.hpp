@@ -15,7 +15,8 @@ namespace gonio::tabulated {
 
 /// Local interpolation by Franke and Nielson's modified inverse distances ("Smooth interpolation of large sets of scattered data",
 /// 1980): the nearest `neighbours` samples weigh ((R - d)/(R d))², R the distance of the next one. d is the root of the squared
-/// chords between the incident and between the outgoing directions; for isotropic data both pairs are first turned to phi_i = 0.
+/// chords between the incident and between the outgoing directions; for isotropic data both pairs are first turned to phi_i = 0, and for
+/// bilateral ones to one side of the plane of incidence.
 ///
 /// Exact at measured directions (repeats are averaged); never beyond the range of its neighbours. A peak between samples is
 /// therefore cut off: the table knows nothing there. NaN where no sample lies within `reach_deg`, 0 below the horizon (of the

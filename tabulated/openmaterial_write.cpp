@@ -104,7 +104,7 @@ Json metadata_of(const Dataset& data, const std::string& uuid, ExportNotes& note
 
 ExportNotes write_openmaterial(const Opened& source, const std::filesystem::path& path, const WriteOptions& options) {
   ExportNotes notes;
-  const auto data = samples_to_write(source, options, notes);
+  const auto data = with_both_sides(samples_to_write(source, options, notes));
   if (data->side == Side::transmission) throw Error(ErrorKind::input, {path.string(), "samples of transmission", "reflection"});
   require_isotropic(*data, path, notes);
   const std::vector<std::optional<double>> wavelengths = wavelengths_of(data->channels, path, notes);

@@ -78,4 +78,34 @@ std::shared_ptr<const Dataset> samples_to_write(const Opened& source, const Writ
   return out;
 }
 
+std::shared_ptr<const Dataset> with_both_sides(std::shared_ptr<const Dataset> samples) {
+  if (!samples->symmetry.isotropic || !samples->symmetry.bilateral) return samples;
+  // In the plane of incidence, to the rounding of a difference of azimuths, and at the normal there is no other side.
+  constexpr double in_plane = 1e-12;
+  const auto side = [&](std::size_t k) {
+    const GonioAngles& at = samples->angles[k];
+    return at.theta_i.sin() * at.theta_o.sin() * (at.phi_o - at.phi_i).sin();
+  };
+  std::vector<std::size_t> off_plane;
+  for (std::size_t k = 0; k < samples->size(); ++k)
+    if (std::fabs(side(k)) > in_plane) off_plane.push_back(k);
+  if (off_plane.empty() || std::any_of(off_plane.begin(), off_plane.end(), [&](std::size_t k) { return side(k) * side(off_plane[0]) < 0; }))
+    return samples;
+
+  auto out = std::make_shared<Dataset>(*samples);
+  const auto repeat = [&](std::vector<double>& column) {
+    if (!column.empty())
+      for (const std::size_t k : off_plane) column.push_back(column[k]);
+  };
+  for (const std::size_t k : off_plane) {
+    out->angles.push_back(samples->angles[k]);
+    out->angles.back().phi_o = samples->angles[k].phi_i + samples->angles[k].phi_i - samples->angles[k].phi_o;
+  }
+  for (auto* columns : {&out->f, &out->u})
+    for (std::vector<double>& column : *columns) repeat(column);
+  for (auto& [name, column] : out->extra) repeat(column);
+  for (CorrelatedComponent& component : out->correlated) repeat(component.sensitivity);
+  return out;
+}
+
 }  // namespace gonio::tabulated

@@ -16,4 +16,8 @@ namespace gonio::tabulated {
 /// `notes` get the counts, the grid and what is lost. Throws Error(input) for a source that cannot be evaluated or knows nothing there.
 std::shared_ptr<const Dataset> samples_to_write(const Opened& source, const WriteOptions& options, ExportNotes& notes);
 
+/// For formats that cannot say that both sides of the plane of incidence are the same: isotropic and bilateral samples of which all lie on
+/// one side, together with their mirror images. Anything else as it is.
+std::shared_ptr<const Dataset> with_both_sides(std::shared_ptr<const Dataset> samples);
+
 }  // namespace gonio::tabulated

@@ -45,6 +45,17 @@ TEST_CASE("Every measured direction gives its own value, turned too where the da
   CHECK(std::isnan(DirectionTable(grid(false)).eval(Direction::spherical(75_deg, 33_deg), Direction::spherical(70_deg, 213_deg))[0]));
 }
 
+TEST_CASE("Bilateral data on one side of the plane of incidence are known on both") {
+  auto half = std::make_shared<Dataset>(*grid(true));
+  half->angles.clear(), half->f[0].clear();
+  for (const GonioAngles& at : grid(true)->angles)
+    if (at.phi_o.degrees() <= 180) half->angles.push_back(at), half->f[0].push_back(model().eval(at)[0]);
+  const Direction wi = Direction::spherical(35_deg, 0_deg), other = Direction::spherical(70_deg, 270_deg);
+  CHECK(std::isnan(DirectionTable(half).eval(wi, other)[0]));
+  half->symmetry.bilateral = true;
+  CHECK(DirectionTable(half).eval(wi, other)[0] == DirectionTable(half).eval(wi, Direction::spherical(70_deg, 90_deg))[0]);
+}
+
 TEST_CASE("Between samples the value stays near the function that was sampled") {
   const DirectionTable table(grid(true));
   INFO("seed " << test::seed);

@@ -55,7 +55,7 @@ TEST_CASE("A model written as a look-up table meets the rules and comes back at 
     CHECK(read.format == "openmaterial-json");
     CHECK(read.dataset->channels.size() == channels.size());
     ExportNotes notes;
-    const auto sampled = samples_to_write(source, paper(), notes);
+    const auto sampled = with_both_sides(samples_to_write(source, paper(), notes));
     REQUIRE(read.dataset->size() == sampled->size());
     // Angles in radians round once.
     constexpr double rounding = 1e-12;

@@ -87,6 +87,26 @@ TEST_CASE("A source of nothing is refused") {
   CHECK(test::faults_of([&] { samples_to_write({}, {}, notes); }).find("cannot be evaluated") != std::string::npos);
 }
 
+TEST_CASE("The other side of bilateral samples is added where all of them lie on one") {
+  Dataset data;
+  data.channels = single_channel("value");
+  data.symmetry = {.isotropic = true, .bilateral = true, .reciprocal = false};
+  data.angles = {{30_deg, 10_deg, 40_deg, 190_deg}, {30_deg, 10_deg, 40_deg, 100_deg}, {0_deg, 0_deg, 40_deg, 100_deg}};
+  data.f = {{1, 2, 3}}, data.u = {{0.1, 0.2, 0.3}}, data.extra["n"] = {4, 5, 6};
+  const auto half = std::make_shared<const Dataset>(data);
+  const auto both = with_both_sides(half);
+  both->require_consistent();
+  REQUIRE(both->size() == 4);
+  CHECK(both->f[0][3] == 2);
+  CHECK(both->u[0][3] == 0.2);
+  CHECK(both->extra.at("n")[3] == 5);
+  CHECK(both->angles[3].phi_o.degrees() == -80);
+  CHECK(with_both_sides(both) == both);
+  data.symmetry.bilateral = false;
+  const auto other = std::make_shared<const Dataset>(data);
+  CHECK(with_both_sides(other) == other);
+}
+
 TEST_CASE("Every BRDF goes into our table and into csv and comes back the same at the nodes") {
   // The table is of floats.
   constexpr double to_float = 6e-8;
