@@ -108,15 +108,18 @@ std::string exported_page(const std::vector<ExportedFile>& files, const std::str
     for (const std::string& line : table_lines) out += line + "\n";
     out += "```\n\n";
   }
-  out += "| format | file | bytes | ms | grid | nodes | unknown | negative | extrapolated | round trip: mean | 95th percentile |\n";
-  out += "|---|---|---:|---:|---|---:|---:|---:|---:|---:|---:|\n";
+  out +=
+      "| format | file | bytes | ms to write | grid | nodes | unknown | negative | extrapolated | round trip: mean | 95th percentile | ms "
+      "to read |\n";
+  out += "|---|---|---:|---:|---|---:|---:|---:|---:|---:|---:|---:|\n";
   for (const ExportedFile& file : files) {
     if (!file.refused.empty()) continue;
-    out += fmt::format("| {} | {} | {} | {:.0f} | {} | {} | {} | {} | {} | {} | {} |\n", file.format->name, file.out.filename().string(),
-                       file.bytes, 1e3 * file.write_s, cell(fact(file.notes, "grid")), file.notes.n_nodes, file.notes.n_unknown,
-                       file.notes.n_negative, file.notes.n_extrapolated,
+    out += fmt::format("| {} | {} | {} | {:.0f} | {} | {} | {} | {} | {} | {} | {} | {} |\n", file.format->name,
+                       file.out.filename().string(), file.bytes, 1e3 * file.write_s, cell(fact(file.notes, "grid")), file.notes.n_nodes,
+                       file.notes.n_unknown, file.notes.n_negative, file.notes.n_extrapolated,
                        file.read_back ? fmt::format("{:.3g} %", 100 * file.read_back->mean) : cell(file.not_read_back),
-                       file.read_back ? fmt::format("{:.3g} %", 100 * file.read_back->p95) : "");
+                       file.read_back ? fmt::format("{:.3g} %", 100 * file.read_back->p95) : "",
+                       file.read_back ? fmt::format("{:.0f}", 1e3 * file.read_back->read_s) : "");
   }
   for (const ExportedFile& file : files) {
     if (!file.refused.empty() || file.notes.lost.empty()) continue;
