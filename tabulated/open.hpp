@@ -73,6 +73,8 @@ struct WriteOptions {
   /// Wanted mean relative error of what a reader of the file gets against the source: the writer takes the smallest grid that keeps it
   /// and notes the errors it chose from. Only for formats that are `adaptive`.
   std::optional<double> error;
+  /// Also a scene that shows the file, for every renderer that loads it by itself. Formats that no renderer loads have none.
+  bool scene = false;
   int threads = 2;
 };
 

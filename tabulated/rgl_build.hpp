@@ -28,8 +28,8 @@ RglGrid rgl_grid(GridSize size, bool isotropic);
 std::string words(const RglGrid& grid);
 
 /// Evaluates the source at the nodes of the grid, which follow from its own retro-reflection, with the algorithm of Dupuy and Jakob 2018 on
-/// the interpolants that the file will hold, so that the file gives back f at its nodes to the rounding of float. Other than there, a fifth
-/// of the density of half vectors is broad: readers take any density, and the tails of narrow lobes get cells of their own.
+/// the interpolants that the file will hold, so that the file gives back f at its nodes to the rounding of float. Other than there, a
+/// part of the density of half vectors is broad: readers take any density, and the tails of narrow lobes get cells of their own.
 ///
 /// What becomes of the source's values, counted in `notes`: negative ones are 0; a node where nothing is known takes the mean of those
 /// beside it, of f cos theta_o over the microsurface of the file; a node below the horizon has the value of the horizon above it. A source

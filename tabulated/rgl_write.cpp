@@ -14,6 +14,7 @@
 #include "tabulated/rgl.hpp"
 #include "tabulated/rgl_build.hpp"
 #include "tabulated/rgl_error.hpp"
+#include "tabulated/sphere_scene.hpp"
 #include "tabulated/tensor_file.hpp"
 
 namespace gonio::tabulated {
@@ -120,6 +121,11 @@ ExportNotes write(const Opened& source, const std::filesystem::path& path, const
   if (source.brdf->delta()) notes.lost.emplace_back("the ideal mirror part has no place in the file");
   write_rgl(arrays, path);
   notes.files = {path};
+  if (options.scene)
+    for (const auto& scene : write_sphere_scenes(is_rgb(arrays.channels) ? "rgl" : "rgl-spectral", path)) {
+      notes.files.push_back(scene);
+      notes.facts.emplace_back("scene", scene.filename().string());
+    }
   notes.facts.emplace_back("quantity", "f cos theta_o 4 sigma / ndf, jacobian 1");
   notes.facts.emplace_back("channels", joined_names(arrays.channels));
   return notes;

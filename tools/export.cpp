@@ -85,7 +85,7 @@ int export_verb(const Arguments& arguments, Console& console) {
   CLI::App app("Writes a table or a fit as a renderer's format.", "export");
   std::string in, out, to, size = "standard", error, all, merl_values = "node";
   int threads = 2;
-  bool read_back = false;
+  bool read_back = false, scene = false;
   ReadFlags flags;
   TableFlags table_flags;
   app.add_option("FILE", in, "Any readable BRDF file, a fit.json included")->required();
@@ -99,6 +99,8 @@ int export_verb(const Arguments& arguments, Console& console) {
   app.add_option("--error", error, "Take the smallest grid whose reader gets this mean relative error, such as 1%");
   app.add_option("--merl-values", merl_values, "MERL: values at the nodes (node), or cell-mean for readers that take the nearest cell");
   app.add_flag("--round-trip", read_back, "Read the file back and say how far its values are from the source's");
+  app.add_flag("--scene", scene,
+               "Also a scene that shows the file on a sphere, for every renderer that loads it; --all always writes them");
   app.add_option("--threads", threads, "Threads")->check(CLI::Range(1, 256));
   table_flags.add_to(app);
   flags.add_to(app);
@@ -108,6 +110,7 @@ int export_verb(const Arguments& arguments, Console& console) {
 
   tabulated::WriteOptions options;
   options.threads = threads;
+  options.scene = scene || !all.empty();
   options.size = size_named(size);
   if (!error.empty()) {
     if (!all.empty() || !writable_format(to).adaptive)
