@@ -285,6 +285,9 @@ RefitData refit_data(const Brdf& source, const Dataset* samples) {
     add_grid(data, source);
   if (data.size() == 0)
     throw Error(ErrorKind::input, {"source", "no value at zenith angles up to 80°", "a BRDF that is known somewhere above the surface"});
+  if (std::all_of(data.f.begin(), data.f.end(), [](double f) { return f == 0; }))
+    throw Error(ErrorKind::input,
+                {"source", "0 or less at every pair of directions", "a BRDF that reflects light: black has no lobe to fit"});
   // Between samples lies no more than an interpolation, and beyond them less: no albedo of theirs counts.
   if (!samples)
     for (const double theta : incidence_deg) add_incidence(data, source, theta);

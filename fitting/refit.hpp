@@ -39,7 +39,7 @@ struct RefitData {
 
 /// On a fixed grid, fine near the highlight: midpoints in sqrt(theta_h), in theta_d and in phi_d (and in phi_h unless isotropic), with
 /// dwi dwo = 4 cos theta_d dwh dwd, both zenith angles at most 80°. With `samples`, at their own directions (an even part of very many).
-/// Error(input) if the source knows nothing there.
+/// Error(input) if the source knows nothing there, or reflects nothing.
 RefitData refit_data(const Brdf& source, const Dataset* samples = nullptr);
 
 /// How far a formula is from the source.

@@ -146,12 +146,15 @@ std::optional<LobeSummary> read_summary(const Opened& opened, std::size_t channe
   return out;
 }
 
-/// Text that can stand in a comment of every language.
+/// Text that can stand in a comment of every language: ASCII, on one line, and nothing that ends a comment.
 std::string harmless(std::string text) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> plain{
+      {{"²", "^2"}, {"√", "sqrt "}, {"α", "alpha_"}, {"·", "*"}, {"--", "- -"}, {"*/", "* /"}}};
+  for (const auto& [letters, words] : plain)
+    for (std::size_t at = 0; (at = text.find(letters, at)) != std::string::npos; at += words.size())
+      text.replace(at, letters.size(), words);
   for (char& letter : text)
-    if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f) letter = ' ';
-  for (std::size_t at = 0; (at = text.find("--", at)) != std::string::npos;) text.replace(at, 2, "- -");
-  for (std::size_t at = 0; (at = text.find("*/", at)) != std::string::npos;) text.replace(at, 2, "* /");
+    if (letter < 0x20 || letter > 0x7e) letter = '?';
   return text;
 }
 

@@ -106,6 +106,10 @@ TEST_CASE("a refit of samples goes through the samples alone") {
   CHECK(found.errors.log_rms < 1e-7);
 }
 
+TEST_CASE("a black source is refused") {
+  CHECK_THROWS_AS(fitting::refit_data(AnalyticBrdf("lambert", single_channel("value"), {{0.0}})), Error);
+}
+
 TEST_CASE("a source that knows nothing is refused") {
   class Unknown final : public Brdf {
    public:

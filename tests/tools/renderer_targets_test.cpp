@@ -2,6 +2,7 @@
 // gonio export to every renderer that takes parameters.
 #include "tools/renderer_targets.hpp"
 
+#include <algorithm>
 #include <regex>
 
 #include "tests/command.hpp"
@@ -59,7 +60,9 @@ TEST_CASE("every renderer takes a fit and samples, and the refit is never worse 
       INFO(format.name << " from " << source << "\n" << outcome.err);
       REQUIRE(outcome.code == 0);
       const Json notes = outcome.json().at("notes");
-      CHECK(!test::read_file(out).empty());
+      const std::string text = test::read_file(out);
+      CHECK(!text.empty());
+      CHECK(std::all_of(text.begin(), text.end(), [](char c) { return c == '\n' || (c >= 0x20 && c < 0x7f); }));
       CHECK(notes.at("files").size() >= 1);
       CHECK(notes.at("facts").contains("roughness"));
       const bool read = notes.at("facts").contains("naive conversion");
