@@ -14,6 +14,7 @@ namespace gonio::tabulated {
 /// Parts, with one displayWindow of n x m pixels (row = incident, column = outgoing):
 ///   `value` [1/sr, cosine not included], `uncertainty` [1/sr, k = 1], `count`: n x m;
 ///   `incident`: 1 x m and `outgoing`: n x 1, theta and phi in degrees, each as the sum of a high and a low float;
+///   `coverage` (only if the samples have that column): n x m, 0 measured, 1 interpolated, 2 extrapolated, NaN in empty cells;
 ///   `deviation` (only if a pose differs from its row and column): n x m, four angles in degrees;
 ///   `sensitivity` (only if a component of uncertainty varies): n x m, d ln f / d name, one channel per component.
 /// Channels: R, G, B for r, g, b; Y for a single one; otherwise `f.<name>` each, and in `value` a Y to look at (the one nearest

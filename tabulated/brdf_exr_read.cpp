@@ -177,6 +177,16 @@ void read_optional_parts(ExrParts& file, SampleTable& table, FaultList& faults) 
       if (!std::all_of(values.begin(), values.end(), [](float value) { return std::fabs(value) <= 180; }))
         faults.add(file.where("deviation"), "an angle that is not within 180 degrees", "small finite angles");
     }
+  if (fits("coverage")) {
+    const std::vector<float> values = file.pixels<float>("coverage", "Y", n, m);
+    if (!values.empty()) table.coverage = doubles(values);
+    for (std::size_t cell = 0; cell < table.coverage.size(); ++cell)
+      if (const double value = table.coverage[cell]; table.is_empty(cell) ? !std::isnan(value) : value != 0 && value != 1 && value != 2) {
+        faults.add(file.where("coverage"), fmt::format("{}", value),
+                   "0, 1 or 2 for measured, interpolated, extrapolated; NaN in empty cells");
+        break;
+      }
+  }
   table.sensitivity.assign(table.description.correlated.size(), std::vector<double>(m * n, unknown));
   if (fits("sensitivity"))
     for (std::size_t component = 0; component < table.sensitivity.size(); ++component) {

@@ -101,6 +101,10 @@ std::vector<Part> parts_of(const SampleTable& table, FaultList& faults) {
     for (std::size_t a = 0; a < deviations.size(); ++a)
       out.back().channels.emplace_back(exr_deviation_channels[a], floats(deviations[a], "an angle", faults));
   }
+  if (!table.coverage.empty()) {
+    out.push_back({"coverage", n, m, {}, {}});
+    out.back().channels.emplace_back("Y", floats(table.coverage, "a coverage", faults));
+  }
   Part sensitivity{"sensitivity", n, m, {}, {}};
   for (std::size_t component = 0; component < table.sensitivity.size(); ++component) {
     const std::vector<double>& values = table.sensitivity[component];

@@ -17,6 +17,7 @@
 namespace gonio::tabulated {
 namespace {
 
+constexpr const char* coverage_column = "coverage";  // as samples_to_write names it
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double same_direction_rad = same_direction_deg * std::numbers::pi / 180;
 
@@ -25,6 +26,15 @@ struct Margin {
   std::vector<TableDirection> directions;
   std::vector<std::size_t> of_sample;
 };
+
+/// The column that says how values came about; a column of that name with other values means something else.
+const std::vector<double>* coverage_of(const Dataset& dataset) {
+  const auto column = dataset.extra.find(coverage_column);
+  if (column == dataset.extra.end()) return nullptr;
+  const auto& values = column->second;
+  const bool known = std::all_of(values.begin(), values.end(), [](double value) { return value == 0 || value == 1 || value == 2; });
+  return known ? &values : nullptr;
+}
 
 Margin margin_of(const Dataset& dataset, Angle GonioAngles::*theta, Angle GonioAngles::*phi) {
   std::vector<Direction> directions;
@@ -110,7 +120,10 @@ SampleTable tabulate(const Dataset& dataset) {
   out.description = without_samples(dataset);
   out.incident = rows.directions;
   out.outgoing = columns.directions;
-  for (const auto& [name, values] : dataset.extra) out.dropped_columns.push_back(name);
+  const std::vector<double>* coverage = coverage_of(dataset);
+  for (const auto& [name, values] : dataset.extra)
+    if (&values != coverage) out.dropped_columns.push_back(name);
+  if (coverage) out.coverage.assign(m * n, unknown);
   const std::size_t channel_count = dataset.channels.size();
   out.f.assign(channel_count, std::vector<double>(m * n, unknown));
   out.u = out.f;
@@ -139,6 +152,8 @@ SampleTable tabulate(const Dataset& dataset) {
                                    angles.theta_o.degrees() - wo.theta_deg, std::remainder(angles.phi_o.degrees() - wo.phi_deg, 360.0)};
       for (std::size_t a = 0; a < out.deviation_deg.size(); ++a) out.deviation_deg[a][cell] += deviations[a] / size;
     }
+    if (coverage)
+      for (const std::size_t k : samples) out.coverage[cell] = std::fmax(out.coverage[cell], (*coverage)[k]);
     for (std::size_t component = 0; component < dataset.correlated.size(); ++component) {
       const std::vector<double>& sensitivity = dataset.correlated[component].sensitivity;
       if (sensitivity.empty()) continue;
@@ -175,6 +190,7 @@ Dataset samples_of(const SampleTable& table) {
       known_u = known_u || !std::isnan(table.u[c][cell]);
     }
     counts.push_back(count);
+    if (!table.coverage.empty()) out.extra[coverage_column].push_back(table.coverage[cell]);
     averaged = averaged || count > 1;
     for (std::size_t component = 0; component < out.correlated.size(); ++component)
       if (with_sensitivity[component]) out.correlated[component].sensitivity.push_back(table.sensitivity[component][cell]);

@@ -25,6 +25,9 @@ struct SampleTable {
   std::vector<std::vector<double>> sensitivity;   ///< [component][cell], NaN for a component that has none
   /// Pose of the sample less the directions of its row and column (theta_i, phi_i, theta_o, phi_o) in degrees: [4][cell].
   std::array<std::vector<double>, 4> deviation_deg;
+  /// How the value of each cell came about (the column `coverage`: 0 measured, 1 interpolated, 2 extrapolated; of several samples the
+  /// largest); NaN in empty cells. Empty if the samples do not say.
+  std::vector<double> coverage;
   std::vector<std::string> dropped_columns;  ///< optional columns, which a table has no place for
 
   std::size_t cell_count() const noexcept { return incident.size() * outgoing.size(); }

@@ -109,6 +109,25 @@ TEST_CASE("What a data set says about itself comes back") {
   CHECK(out.simulated);
 }
 
+TEST_CASE("How values came about comes back; a column of that name with other values has no place") {
+  const TemporaryFolder folder;
+  Dataset data = grid(rgb_channels(), true);
+  for (std::size_t k = 0; k < data.size(); ++k) data.extra["coverage"].push_back(static_cast<double>(k % 3));
+  const SampleTable table = tabulate(data);
+  CHECK(table.dropped_columns.empty());
+  write_brdf_exr(table, folder / "a.brdf.exr");
+  CHECK(samples_of(read_brdf_exr(folder / "a.brdf.exr")).extra.at("coverage") == samples_of(table).extra.at("coverage"));
+
+  SampleTable damaged = table;
+  damaged.coverage.front() = 7;
+  write_brdf_exr(damaged, folder / "b.brdf.exr");
+  CHECK(faults_of([&] { read_brdf_exr(folder / "b.brdf.exr"); }).find("coverage") != std::string::npos);
+
+  data.extra["coverage"].front() = 0.5;
+  CHECK(tabulate(data).dropped_columns == std::vector<std::string>{"coverage"});
+  CHECK(tabulate(data).coverage.empty());
+}
+
 TEST_CASE("Unknown uncertainty stays unknown") {
   Dataset in = grid(rgb_channels(), true);
   in.u.clear();
