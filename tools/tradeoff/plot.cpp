@@ -17,6 +17,9 @@ constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "
 constexpr int markers[] = {7, 5, 9, 13, 11, 15, 6, 4};
 constexpr std::size_t styles = std::size(colours);
 
+/// Beyond the eighth method a marker comes again in another colour.
+const char* colour(std::size_t method) { return colours[(method + 3 * (method / styles)) % styles]; }
+
 /// Larger errors, and results that are no number, stand on this line at the top.
 constexpr double useless = 10;
 
@@ -45,7 +48,7 @@ std::string heading_and_key(const Measured& measured, const std::vector<std::str
   };
   for (std::size_t m = 0; m < methods.size(); ++m)
     text += fmt::format("set label {} {} point pt {} ps 1.2 lc rgb '{}' offset character 1.2,0 noenhanced\n", gnuplot_quoted(methods[m]),
-                        place(m), markers[m % styles], colours[m % styles]);
+                        place(m), markers[m % styles], colour(m));
   return text + fmt::format("set label '— Pareto front{}' {} textcolor rgb '#777777' noenhanced\n",
                             measured.by_size ? "" : "; bars: fastest and slowest run", place(methods.size()));
 }
@@ -64,7 +67,8 @@ std::string data_block(const std::string& name, const std::vector<const Point*>&
   std::string text = fmt::format("${} << EOD\n", name);
   for (const Point* point : points)
     text += fmt::format("{:.9g} {:.9g} {:.9g} {:.9g} \"{}\"\n", cost(*point, measured.by_size) / unit, std::max(shown(*point), least_error),
-                        cheapest(*point, measured) / unit, dearest(*point, measured) / unit, point->setting);
+                        cheapest(*point, measured) / unit, dearest(*point, measured) / unit,
+                        measured.by_size ? point->method + " " + point->setting : point->setting);
   return text + "EOD\n";
 }
 
@@ -146,8 +150,7 @@ std::string plot_script(const Measured& measured, const std::string& terminal, c
     text += fmt::format("plot $p{}front using 1:2 with lines lw 2 lc rgb '#bbbbbb'", p);
     for (std::size_t m = 0; m < methods.size(); ++m) {
       if (in_panel(panel, [&](const Point& q) { return q.method == methods[m]; }).empty()) continue;
-      text += fmt::format(", $p{}m{} using 1:2:3:4 with xerrorbars pt {} ps 0.9 lw 1.2 lc rgb '{}'", p, m, markers[m % styles],
-                          colours[m % styles]);
+      text += fmt::format(", $p{}m{} using 1:2:3:4 with xerrorbars pt {} ps 0.9 lw 1.2 lc rgb '{}'", p, m, markers[m % styles], colour(m));
     }
     text += fmt::format(
         ", $p{}front using 1:2:5 with labels left offset character 0.7,0.5 font ',9' textcolor rgb '#333333' noenhanced\nunset "
