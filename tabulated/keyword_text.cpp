@@ -17,7 +17,8 @@ constexpr bool is_word_letter(char c) { return (c >= '0' && c <= '9') || (lower(
 
 }  // namespace
 
-KeywordText::KeywordText(std::string_view text, FaultList& faults) : text_(text), faults_(faults) {
+KeywordText::KeywordText(std::string_view text, FaultList& faults, std::size_t first_line)
+    : text_(text), line_(first_line), faults_(faults) {
   if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
   advance();
 }
@@ -67,16 +68,22 @@ std::optional<double> KeywordText::number(std::string_view what) {
   return std::nullopt;
 }
 
-std::vector<double> KeywordText::counted_list(std::string_view what) {
+std::size_t KeywordText::count(std::string_view what) {
   const std::size_t line = word_.line;
-  const std::optional<double> count = number(fmt::format("how many {}", what));
-  if (!count) return {};
-  if (!(*count >= 1 && *count == std::floor(*count) && *count < 1e9 && can_hold(static_cast<std::size_t>(*count)))) {
-    faults_.add_at(line, fmt::format("{} {}", *count, what), "a number that the file can hold");
-    return {};
-  }
+  const std::optional<double> read = number(fmt::format("how many {}", what));
+  if (!read) return 0;
+  constexpr double most = 1e9;
+  if (*read >= 1 && *read < most && *read == std::floor(*read) && can_hold(static_cast<std::size_t>(*read)))
+    return static_cast<std::size_t>(*read);
+  faults_.add_at(line, fmt::format("{} {}", *read, what), "a number that the file can hold");
+  return 0;
+}
+
+std::vector<double> KeywordText::counted_list(std::string_view what) { return list(count(what), what); }
+
+std::vector<double> KeywordText::list(std::size_t length, std::string_view what) {
   std::vector<double> out;
-  for (auto n = static_cast<std::size_t>(*count); n > 0; --n) {
+  for (std::size_t n = length; n > 0; --n) {
     const std::optional<double> value = number(what);
     if (!value) return {};
     out.push_back(*value);

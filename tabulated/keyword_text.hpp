@@ -15,8 +15,8 @@ namespace gonio::tabulated {
 /// Hands out the words of a text one by one; lines that start with `#` are comments.
 class KeywordText {
  public:
-  /// `text` must outlive the object.
-  KeywordText(std::string_view text, FaultList& faults);
+  /// `text`, which begins with line `first_line` of the file, must outlive the object.
+  KeywordText(std::string_view text, FaultList& faults, std::size_t first_line = 1);
 
   struct Word {
     std::string_view text;
@@ -31,6 +31,10 @@ class KeywordText {
 
   /// The next word as a finite number; a fault (once per call, `what` names the number) and nothing if it is none.
   std::optional<double> number(std::string_view what);
+  /// A whole number from 1 on; 0 and a fault if it is none or the rest of the text cannot hold so many numbers.
+  std::size_t count(std::string_view what);
+  /// So many finite numbers; empty and a fault if one is none.
+  std::vector<double> list(std::size_t length, std::string_view what);
   /// A count and as many finite numbers. A count that the rest of the text cannot hold is a fault before anything is allocated.
   std::vector<double> counted_list(std::string_view what);
   /// True if the rest of the text is long enough for `count` numbers.

@@ -26,7 +26,9 @@
 #include "tabulated/radiance_xml.hpp"
 #include "tabulated/rgl.hpp"
 #include "tabulated/samples_to_write.hpp"
+#include "tabulated/speos.hpp"
 #include "tabulated/ssdd.hpp"
+#include "tabulated/tracepro.hpp"
 #include "tabulated/utia.hpp"
 #include "tabulated/zemax.hpp"
 
@@ -171,6 +173,22 @@ const std::vector<Format>& formats() {
        ".bsdf",
        false,
        {"side", "scatter"}},
+      {"speos",
+       "scatter file of Ansys SPEOS as text (.brdf, .anisotropicbsdf; .brdf written, untested with the program itself)",
+       recognises_speos,
+       open_speos,
+       write_speos,
+       ".brdf",
+       false,
+       {"scale", "scatter", "rotation"}},
+      {"tracepro",
+       "table of scatter in a surface property of TracePro (.txt; writer untested with the program itself)",
+       recognises_tracepro,
+       open_tracepro,
+       write_tracepro,
+       ".txt",
+       false,
+       {"scatter", "zero_azimuth"}},
       {"fred",
        "tabulated scatter of FRED, named by the specular direction (.txt)",
        recognises_fred,
