@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -38,10 +39,13 @@ Json notes_document(const tabulated::ExportNotes& notes) {
 }
 
 std::vector<std::string> notes_lines(const tabulated::ExportNotes& notes) {
-  std::vector<std::string> out;
-  for (const auto& [key, words] : notes.facts) out.push_back(fmt::format("  {:<22} {}", key, words));
+  std::vector<std::pair<std::string, std::string>> facts = notes.facts;
   for (const NamedCount& entry : counts)
-    if (notes.*entry.count > 0) out.push_back(fmt::format("  {:<22} {}", entry.words, notes.*entry.count));
+    if (notes.*entry.count > 0) facts.emplace_back(entry.words, std::to_string(notes.*entry.count));
+  std::size_t width = 0;
+  for (const auto& [key, words] : facts) width = std::max(width, key.size());
+  std::vector<std::string> out;
+  for (const auto& [key, words] : facts) out.push_back(fmt::format("  {:<{}}  {}", key, width, words));
   for (const std::string& sentence : notes.lost) out.push_back("  lost: " + sentence);
   return out;
 }
