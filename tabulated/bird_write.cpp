@@ -140,7 +140,7 @@ Json data_of(const Dataset& data, std::span<const Row> rows, ExportNotes& notes)
     own.set(name, Json::object({{"description", "Column of the samples."},
                                 {"unit", ""},
                                 {"type", "number"},
-                                {"values", column(rows, [&](const Row& row) { return values[row.sample]; })}}));
+                                {"values", column(rows, [&values = values](const Row& row) { return values[row.sample]; })}}));
   }
   out.set("adhoc_variables", own);
   return out;

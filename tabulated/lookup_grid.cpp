@@ -124,7 +124,7 @@ void read_nearest(const Memory<T>& memory, const Cells& cells, std::size_t count
 template <std::size_t fixed_channels, class T>
 void read_linear(const Memory<T>& memory, const Cells& cells, std::size_t count, float* out) noexcept {
   const std::size_t channels = fixed_channels ? fixed_channels : memory.channels;
-  const auto [sx, sy, sz] = memory.stride;
+  const std::size_t sx = memory.stride[0], sy = memory.stride[1], sz = memory.stride[2];
   for (std::size_t k = 0; k < count; ++k) {
     const float wx = cells.weight[0][k], wy = cells.weight[1][k], wz = cells.weight[2][k];
     for (std::size_t c = 0; c < channels; c += lane_count) {
