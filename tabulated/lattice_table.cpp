@@ -203,7 +203,7 @@ Dataset LatticeTable::samples() const {
     }
     // The same direction as another node: azimuth 360° is 0, and at the pole every azimuth is the first.
     std::array<std::size_t, 4> first = lattice_.position(node);
-    for (const std::size_t axis : {1, 3}) {
+    for (const std::size_t axis : {1u, 3u}) {
       const std::vector<double>& nodes = lattice_.nodes_deg[axis];
       if (first[axis] + 1 == nodes.size() && nodes.back() - nodes.front() == 360) first[axis] = 0;
     }
