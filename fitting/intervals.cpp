@@ -53,7 +53,11 @@ std::vector<Reach> linearised_reach(const Solution& solution, const ParameterPla
     for (std::size_t k = 0; k < places.linear; ++k) set(places.of_linear(c, k), solution.linear[c][k], 1);
   for (const SearchAxis& axis : space.axes()) {
     const double value = solution.theta[axis.parameter];
+    Reach& reach = out[places.of_nonlinear(axis.parameter)];
     set(places.of_nonlinear(axis.parameter), axis.coordinate(value), axis.slope(value));
+    // Beyond the search there is no end.
+    if (reach.low < axis.low) reach.low = -infinity;
+    if (reach.high > axis.high) reach.high = infinity;
   }
   return out;
 }

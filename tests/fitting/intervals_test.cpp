@@ -138,6 +138,27 @@ TEST_CASE("without a lobe the exponent is unidentified and has no sigma") {
   CHECK(!parameter(result, "rho_s").sigma);
 }
 
+TEST_CASE("the exponent of a second lobe that is not there has no end beyond its search, without noise either") {
+  const AnalyticBrdf truth("ggx", single_channel("value"), {{.2, .04, 1, .2}});
+  auto data = std::make_shared<Dataset>();
+  data->channels = truth.channels();
+  data->angles = polar_grid({0, 20, 40, 60}, 5, 30);
+  data->f.resize(1);
+  for (const GonioAngles& angles : data->angles) data->f[0].push_back(truth.eval(angles.wi(), angles.wo())[0]);
+  FitOptions options;
+  options.model = "ggx+phong";
+  const FitResult result = fit(*observe(data), options);
+  REQUIRE(result.status == Status::converged);
+  CHECK(parameter(result, "alpha").value == Approx(.2).epsilon(1e-6));
+  for (const FittedParameter& p : result.parameters) {
+    INFO(p.name);
+    if (p.high) CHECK(std::isfinite(*p.high));
+    if (p.low) CHECK(std::isfinite(*p.low));
+  }
+  CHECK(parameter(result, "s").kind != IntervalKind::interval);
+  CHECK_FALSE(parameter(result, "s").sigma);
+}
+
 TEST_CASE("as many samples as parameters determine nothing without a stated uncertainty") {
   const std::vector<GonioAngles> angles{{degrees(0), degrees(0), degrees(0), degrees(0)},
                                         {degrees(30), degrees(0), degrees(30), degrees(0)},
