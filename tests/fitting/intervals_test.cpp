@@ -142,7 +142,10 @@ TEST_CASE("the exponent of a second lobe that is not there has no end beyond its
   const AnalyticBrdf truth("ggx", single_channel("value"), {{.2, .04, 1, .2}});
   auto data = std::make_shared<Dataset>();
   data->channels = truth.channels();
-  data->angles = polar_grid({0, 20, 40, 60}, 5, 30);
+  for (int theta_i = 0; theta_i < 80; theta_i += 10)
+    for (int theta_o = 0; theta_o < 85; theta_o += 3)
+      for (int phi_o = 0; phi_o <= 360; phi_o += 15)
+        data->angles.push_back({degrees(theta_i), degrees(0), degrees(theta_o), degrees(phi_o)});
   data->f.resize(1);
   for (const GonioAngles& angles : data->angles) data->f[0].push_back(truth.eval(angles.wi(), angles.wo())[0]);
   FitOptions options;
