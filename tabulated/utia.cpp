@@ -26,9 +26,9 @@ constexpr std::size_t file_size = planes * plane_size * sizeof(double);
 
 Lattice lattice() {
   Lattice out;
-  for (const std::size_t axis : {0, 2})
+  for (const std::size_t axis : {0u, 2u})
     for (std::size_t k = 0; k < zenith_count; ++k) out.nodes_deg[axis].push_back(15.0 * static_cast<double>(k));
-  for (const std::size_t axis : {1, 3})
+  for (const std::size_t axis : {1u, 3u})
     for (std::size_t k = 0; k < azimuth_count; ++k) out.nodes_deg[axis].push_back(7.5 * static_cast<double>(k));
   return out;
 }
