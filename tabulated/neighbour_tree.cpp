@@ -8,7 +8,7 @@
 namespace gonio::tabulated {
 namespace {
 
-constexpr std::size_t leaf_size = 8;
+constexpr std::size_t leaf_size = 32;
 
 double squared_to_box(const PairPoint& at, const PairPoint& low, const PairPoint& high) {
   double sum = 0;
@@ -44,12 +44,13 @@ NeighbourTree::NeighbourTree(std::vector<PairPoint> points) : points_(std::move(
 }
 
 std::size_t NeighbourTree::build(std::size_t first, std::size_t last) {
-  Node node{points_[order_[first]], points_[order_[first]], first, last};
+  Node node{points_[order_[first]], points_[order_[first]], 0, first, last};
   for (std::size_t k = first; k < last; ++k)
     for (std::size_t axis = 0; axis < node.low.size(); ++axis) {
       node.low[axis] = std::min(node.low[axis], points_[order_[k]][axis]);
       node.high[axis] = std::max(node.high[axis], points_[order_[k]][axis]);
     }
+  node.squared_diagonal = squared_distance(node.low, node.high);
   const std::size_t number = nodes_.size();
   nodes_.push_back(node);
   if (last - first <= leaf_size) return number;
@@ -90,7 +91,9 @@ void NeighbourTree::around(const PairPoint& at, const Search& search, std::vecto
       continue;
     }
     const Node& node = nodes_[next.index];
-    if (std::any_of(out.begin(), out.end(), [&](const Neighbour& nearer) {
+    // The far corner of a box is half its diagonal away from any point.
+    const bool may_hide = node.squared_diagonal < 4 * hidden * next.squared;
+    if (may_hide && std::any_of(out.begin(), out.end(), [&](const Neighbour& nearer) {
           return squared_to_far_corner(points_[nearer.point], node.low, node.high) < hidden * next.squared;
         }))
       continue;

@@ -38,6 +38,7 @@ class NeighbourTree {
  private:
   struct Node {
     PairPoint low, high;
+    double squared_diagonal;
     std::size_t first, last;          ///< into order_
     std::size_t left = 0, right = 0;  ///< children; 0: a leaf
   };
