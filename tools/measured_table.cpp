@@ -11,6 +11,7 @@
 
 #include "brdf/analytic_brdf.hpp"
 #include "fitting/fit.hpp"
+#include "tabulated/direction_table.hpp"
 #include "tabulated/guided_table.hpp"
 #include "tabulated/in_parallel.hpp"
 #include "tools/output.hpp"
@@ -157,8 +158,11 @@ tabulated::Opened measured_table(const tabulated::Opened& source, const TableFla
   const Symmetry imposed = flags.imposed();
   tabulated::Opened out = source;
   std::pair<std::vector<GonioAngles>, std::vector<double>> before;
-  if (imposed != Symmetry{} && source.brdf && !source.dataset) before = compared(source);
-  if (source.dataset) {
+  // The nodes of a table are samples too, but the table knows itself what lies between them.
+  const bool scattered = source.dataset && dynamic_cast<const tabulated::DirectionTable*>(source.brdf.get()) != nullptr;
+  if (imposed != Symmetry{} && source.brdf && !scattered) before = compared(source);
+  if (!scattered && (flags.resample || imposed != Symmetry{})) out.dataset.reset();
+  if (scattered) {
     const auto samples = prepared(*source.dataset, imposed, flags.mask_retro_deg, report.n_masked_retro);
     const tabulated::GuidedTableOptions options{.extrapolate = flags.extrapolate == "model", .threads = threads};
     auto tried = candidates(flags.guide, *observe(samples), threads);
