@@ -23,6 +23,7 @@
 #include "tabulated/mbsdf.hpp"
 #include "tabulated/merl.hpp"
 #include "tabulated/openmaterial.hpp"
+#include "tabulated/pab.hpp"
 #include "tabulated/radiance_xml.hpp"
 #include "tabulated/rgl.hpp"
 #include "tabulated/samples_to_write.hpp"
@@ -250,6 +251,14 @@ const std::vector<Format>& formats() {
        ".astm",
        false,
        {"specular", "side", "isotropic"}},
+      {"pab",
+       "measurements of pab's goniophotometers, one incidence a file, as Radiance's pabopto2bsdf takes them (.dat)",
+       recognises_pab,
+       open_pab,
+       write_pab,
+       ".dat",
+       false,
+       {"side"}},
       {"csv", "samples as text: theta_i_deg, phi_i_deg, theta_o_deg, phi_o_deg, values and uncertainties", recognises_csv, open_csv,
        write_samples_as_csv, ".csv"},
   };

@@ -130,6 +130,30 @@ class Radiance(interop.TestCase):
             found = re.search(r"Exterior Refl\s+(\S+)\s+(\S+)\s+(\S+)", errors)
             self.check(found and float(found[2]) <= average and float(found[3]) <= largest, f"{target}: {report}")
 
+    def test_pab_files_become_a_bsdf_again(self):
+        """pabopto2bsdf takes our files; the interpolation it makes of them, as a matrix, is near the model it came from."""
+        source = self.fit("ggx", rho_d=0.2, f0=0.5, f90=0.9, alpha=0.3)
+        folder = self.folder / "pab"
+        folder.mkdir()
+        interop.gonio("export", source, "--to", "pab", "--size", "paper", "--out", folder / "m.dat")
+        files = sorted(folder.iterdir())
+        self.check(len(files) >= 9, f"{len(files)} files, one per incidence")
+        sir = self.folder / "m.sir"
+        environment = dict(os.environ, PATH=f"{self.package / 'bin'}:{os.environ['PATH']}")
+        done = subprocess.run([self.program("pabopto2bsdf"), *files], capture_output=True, env=environment)
+        self.check(done.returncode == 0 and not done.stderr, f"pabopto2bsdf: {done.stderr}")
+        sir.write_bytes(done.stdout)
+        done = subprocess.run([self.program("bsdf2klems"), "-p", "-q", sir], capture_output=True, env=environment)
+        xml = self.folder / "m.xml"
+        xml.write_bytes(done.stdout)
+        ours = self.xml(source, "radiance-klems-quarter")
+        pairs = self.pairs(400, 60)
+        theirs = [value[0] for value in interop.evaluate(xml, pairs)]
+        means = [value[0] for value in interop.evaluate(ours, pairs)]
+        error = sum(abs(a / b - 1) for a, b in zip(theirs, means)) / len(pairs)
+        # Radial functions fitted to logarithms smooth the lobe; a wrong azimuth or cosine would be far off.
+        self.check(error < 0.12, f"mean relative difference {error}")
+
     def test_a_rendered_sphere_is_as_bright_as_the_brdf_says(self):
         """rtrace looks at the sphere of the scene under one distant lamp: radiance = f · irradiance, f as gonio evaluates the XML."""
         source = self.fit("ggx", rho_d=0.2, f0=0.5, f90=0.9, alpha=0.2)
