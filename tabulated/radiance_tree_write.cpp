@@ -23,8 +23,8 @@
 namespace gonio::tabulated {
 namespace {
 
-/// Two rules that agree to half a percent: the finer one is far closer.
-constexpr double settled = 5e-3;
+/// Two rules that agree to a percent: the finer one is far closer, and cells are joined at that difference.
+constexpr double settled = 1e-2;
 /// Cells that differ from their mean by less are joined: a part of it, and 1e-5 1/sr, nothing beside the light of any lamp.
 constexpr double joined_part = 0.01, joined_per_sr = 1e-5;
 /// u' and v' that differ by less are one colour to the eye.
@@ -68,7 +68,7 @@ TensorTree tree_of(const Cell& cell, std::size_t dimensions, double tolerance,
 class TreeWriter {
  public:
   TreeWriter(const Opened& source, const ChannelMap& map, std::size_t dimensions, std::size_t levels, bool front)
-      : dimensions_(dimensions), levels_(levels), sign_(front ? -1 : 1), mean_(source, map, {1, 2, 4, 8}, settled) {}
+      : dimensions_(dimensions), levels_(levels), sign_(front ? -1 : 1), mean_(source, map, rules(dimensions), settled) {}
 
   /// The two upper levels are cut into pieces of work for the threads.
   Cell write(int threads, RadianceMeans& means, ExportNotes& notes) const {
@@ -92,6 +92,11 @@ class TreeWriter {
   }
 
  private:
+  /// Points a dimension: in four dimensions there are many of them, and 3 or 4 already meet a lobe at 9 or 16 places an axis.
+  static std::vector<std::size_t> rules(std::size_t dimensions) {
+    return dimensions == 3 ? std::vector<std::size_t>{1, 2, 4, 8} : std::vector<std::size_t>{1, 2, 3, 4};
+  }
+
   TensorTree::Position corner_of(TensorTree::Position corner, double edge, std::size_t child) const {
     for (std::size_t i = 0; i < dimensions_; ++i) corner[i] += (child >> i) & 1 ? edge : 0;
     return corner;
