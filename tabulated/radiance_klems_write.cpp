@@ -13,6 +13,7 @@
 #include "tabulated/radiance_colour.hpp"
 #include "tabulated/radiance_xml.hpp"
 #include "tabulated/radiance_xml_write.hpp"
+#include "tabulated/sphere_scene.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -134,6 +135,8 @@ ExportNotes write(const Opened& source, const std::filesystem::path& path, const
   }
   write_file_atomically(path, radiance_document("Columns", &basis, path.stem().string(), blocks));
   notes.files = {path};
+  if (options.scene)
+    for (const auto& scene : write_sphere_scenes("radiance-xml", path)) notes.files.push_back(scene);
   notes.facts.emplace_back("grid", fmt::format("{} x {} pairs of patches, {}", basis.size(), basis.size(), basis.name()));
   note_means(means, map, notes);
   return notes;

@@ -18,6 +18,7 @@
 #include "tabulated/radiance_xml.hpp"
 #include "tabulated/radiance_xml_write.hpp"
 #include "tabulated/rgl_error.hpp"
+#include "tabulated/sphere_scene.hpp"
 #include "tabulated/tensor_tree_table.hpp"
 
 namespace gonio::tabulated {
@@ -204,6 +205,8 @@ ExportNotes write(const Opened& source, const std::filesystem::path& path, const
   write_file_atomically(path, radiance_document(fmt::format("TensorTree{}", dimensions), nullptr, path.stem().string(), blocks));
   ExportNotes notes = std::move(written.notes);
   notes.files = {path};
+  if (options.scene)
+    for (const auto& scene : write_sphere_scenes("radiance-xml", path)) notes.files.push_back(scene);
   notes.facts.emplace_back("grid", fmt::format("tensor tree of rank {}, {} divisions of an axis at most, {} cells", dimensions,
                                                std::size_t{1} << levels, written.back.luminance.leaf_count()));
   notes.facts.emplace_back("joined", fmt::format("cells within {} % of their mean", 100 * joined_part));

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "data-schemas/write_file.hpp"
+#include "tabulated/radiance_xml.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -94,6 +95,7 @@ std::vector<std::filesystem::path> write_sphere_scenes(std::string_view format, 
     write(".xml", mitsuba_scene(file, true));
     write(".pbrt", pbrt_scene(file, material.stem().string() + ".exr"));
   }
+  if (format.starts_with("radiance-")) write(".rad", radiance_scene(file));
   return out;
 }
 

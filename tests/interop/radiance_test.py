@@ -130,6 +130,20 @@ class Radiance(interop.TestCase):
             found = re.search(r"Exterior Refl\s+(\S+)\s+(\S+)\s+(\S+)", errors)
             self.check(found and float(found[2]) <= average and float(found[3]) <= largest, f"{target}: {report}")
 
+    def test_the_scene_beside_the_file_renders(self):
+        source = self.fit("ggx", rho_d=0.2, f0=0.5, f90=0.9, alpha=0.2)
+        interop.gonio("export", source, "--to", "radiance-klems-quarter", "--scene", "--out", self.folder / "metal.xml")
+        octree = self.folder / "metal.oct"
+        octree.write_bytes(subprocess.run([self.program("oconv"), "metal.rad"], cwd=self.folder, capture_output=True, check=True).stdout)
+        view = "-vp 0 -4 0 -vd 0 1 0 -vu 0 0 1 -vh 35 -vv 35 -ab 1 -ss 4 -x 32 -y 32".split()
+        picture = subprocess.run([self.program("rpict"), *view, octree], cwd=self.folder, capture_output=True)
+        self.check(picture.returncode == 0, f"rpict: {picture.stderr}")
+        values = subprocess.run([self.program("pvalue"), "-o", "-h", "-H", "-d", "-b"], input=picture.stdout, capture_output=True, check=True)
+        pixels = [float(line) for line in values.stdout.decode().split()]
+        self.check(len(pixels) >= 31 * 31, f"{len(pixels)} pixels")
+        middle = pixels[len(pixels) // 2 - 5 : len(pixels) // 2 + 5]
+        self.check(min(middle) > 0.01 and max(pixels) < 1e4, f"the sphere is lit: {middle}")
+
     def test_pab_files_become_a_bsdf_again(self):
         """pabopto2bsdf takes our files; the interpolation it makes of them, as a matrix, is near the model it came from."""
         source = self.fit("ggx", rho_d=0.2, f0=0.5, f90=0.9, alpha=0.3)

@@ -237,3 +237,16 @@ TEST_CASE("Any number of threads writes the same XML") {
     CHECK(test::read_file(folder / "m.xml") == first);
   }
 }
+
+TEST_CASE("The scene beside the file names it, and is written only where it is asked for") {
+  const test::TemporaryFolder folder;
+  WriteOptions options = small();
+  const Opened grey = source(AnalyticBrdf("lambert", single_channel("value"), {{0.5}}));
+  CHECK(write_radiance_klems_quarter(grey, folder / "grey.xml", options).files.size() == 1);
+  options.scene = true;
+  const ExportNotes notes = write_radiance_tree3(grey, folder / "grey.xml", options);
+  REQUIRE(notes.files.size() == 2);
+  CHECK(notes.files[1] == folder / "grey.rad");
+  CHECK(test::read_file(folder / "grey.rad").find("6 0 grey.xml 0 0 1 .") != std::string::npos);
+  CHECK(radiance_scene("a b.xml").find("6 0 \"a b.xml\" 0 0 1 .") != std::string::npos);
+}
