@@ -144,7 +144,7 @@ ExportNotes write_abg(const Opened& source, const std::filesystem::path& path, c
     throw Error(ErrorKind::input, {path.string(), fmt::format("a {} that cannot be evaluated", source.format), "a model or a table"});
   ExportNotes notes;
   notes.files = {path};
-  const Side side = side_of(source);
+  const Side side = source.side;
   const ChannelMap map = one_channel(source.brdf->channels());
   std::vector<GonioAngles> poses;
   std::vector<std::size_t> first;

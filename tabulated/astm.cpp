@@ -15,7 +15,6 @@
 #include "tabulated/csv_text.hpp"
 #include "tabulated/fault_list.hpp"
 #include "tabulated/keyword_text.hpp"
-#include "tabulated/opened_samples.hpp"
 #include "tabulated/samples_to_write.hpp"
 #include "tabulated/stated_symmetry.hpp"
 #include "tabulated/values_to_write.hpp"
@@ -25,11 +24,12 @@ namespace {
 
 /// Header line of our own files.
 constexpr std::string_view convention_line = "CONVENTION specular at phi_s - phi_i = pi";
+constexpr std::string_view isotropic_line = "CONVENTION isotropic", bilateral_line = "CONVENTION isotropic and bilateral";
 constexpr std::string_view transmission_line = "CONVENTION transmission, theta_s from the normal of the other side";
 
 struct Header {
   std::size_t points = 0;
-  bool has_points = false, ours = false, transmission = false;
+  bool has_points = false, ours = false, transmission = false, isotropic = false, bilateral = false;
   std::vector<std::string> variables;
   std::string text;  ///< free lines
 };
@@ -40,6 +40,8 @@ Header read_header(CsvLines& lines, FaultList& faults) {
   for (auto line = lines.next(); line; line = lines.next()) {
     if (*line == convention_line) out.ours = true;
     if (*line == transmission_line) out.transmission = true;
+    if (*line == isotropic_line || *line == bilateral_line) out.isotropic = true;
+    if (*line == bilateral_line) out.bilateral = true;
     if (line->starts_with("NUM_POINTS")) {
       const std::string_view rest = line->substr(std::string_view("NUM_POINTS").size());
       split(rest, blanks, fields);
@@ -59,7 +61,7 @@ Header read_header(CsvLines& lines, FaultList& faults) {
         faults.add_at(lines.number(), excerpt(*line), "VARS theta_i,phi_i,theta_s,phi_s and at least one value");
       return out;
     }
-    if (!line->empty() && *line != convention_line && *line != transmission_line) {
+    if (!line->empty() && !line->starts_with("CONVENTION ")) {
       constexpr std::size_t longest = 1000;
       if (out.text.size() < longest) out.text += (out.text.empty() ? "" : "\n") + std::string(line->substr(0, longest));
     }
@@ -160,6 +162,7 @@ Dataset read_astm(const std::filesystem::path& path, const ReadOptions& options)
   if (faults.empty() && out.size() == 0) faults.add(faults.file(), "no sample", "at least one");
   faults.raise();
   out.symmetry = stated_symmetry(path, options);
+  if (header.isotropic && !options.assumed("isotropic")) out.symmetry = {.isotropic = true, .bilateral = header.bilateral};
   out.provenance["source"] = path.filename().string();
   if (!header.text.empty()) out.provenance["header"] = header.text;
   return out;
@@ -171,7 +174,7 @@ bool recognises_astm(std::string_view head, std::uintmax_t) {
 }
 
 Opened open_astm(const std::filesystem::path& path, const ReadOptions& options) {
-  Opened out = opened_samples("astm", std::make_shared<const Dataset>(read_astm(path, options)));
+  Opened out = opened_grid("astm", std::make_shared<const Dataset>(read_astm(path, options)));
   out.info.insert(out.info.begin(), {{"holds", "f"}, {"unit", "1/sr"}, {"nodes", "at samples, in radians"}});
   return out;
 }
@@ -208,9 +211,11 @@ ExportNotes write_astm(const Opened& source, const std::filesystem::path& path, 
         name.begin(), name.end(), [](char c) { return c == ',' || c == '"' || c == '#' || static_cast<unsigned char>(c) <= ' '; }, '_');
     variables += "," + name;
   }
+  const std::string symmetry =
+      !samples->symmetry.isotropic ? "" : fmt::format("{}\n", samples->symmetry.bilateral ? bilateral_line : isotropic_line);
   const std::string text = fmt::format(
-      "ASTM E1392, written by gonio from {}\n{}\n{}NUM_POINTS {}\nVARS theta_i,phi_i,theta_s,phi_s{}\n{}", source.format, convention_line,
-      samples->side == Side::transmission ? std::string(transmission_line) + "\n" : "", written, variables, rows);
+      "ASTM E1392, written by gonio from {}\n{}\n{}{}NUM_POINTS {}\nVARS theta_i,phi_i,theta_s,phi_s{}\n{}", source.format, convention_line,
+      samples->side == Side::transmission ? std::string(transmission_line) + "\n" : "", symmetry, written, variables, rows);
   notes.facts.emplace_back("angles", "radians; specular at phi_s - phi_i = pi, as libbsdf and ALTA read such files (the standard has 0)");
   if (samples->has_uncertainty()) notes.lost.emplace_back("uncertainties have no place in the format");
   write_file_atomically(path, text);

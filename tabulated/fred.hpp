@@ -15,6 +15,7 @@ namespace gonio::tabulated {
 /// three: scatter direction and f [1/sr] or log10 f, times `scale` (FRED's help, "Tabulated BSDF"). deg: zenith angle, negative on the
 /// other side of the normal, and azimuth; sin: direction cosines sin(phi) sin(theta), cos(phi) sin(theta). Trap: the direction given is
 /// the specular one, so phi_i is half a turn from it.
+/// One specular azimuth means an isotropic sample; FRED's model is then bilateral too, which is said of samples on one side of the plane.
 /// A file does not say whether it holds reflection or transmission: it is taken for reflection unless `--assume side=transmission`.
 /// Throws Error(input) with all faults.
 Dataset read_fred(const std::filesystem::path& path, const ReadOptions& options);

@@ -70,6 +70,17 @@ std::optional<Polar> direction(double first, double second, const FormatLine& fo
   return Polar{angle_of(sine, std::sqrt(1 - sine * sine)), angle_of(first, second)};
 }
 
+/// All samples lie on one side of the plane of incidence: FRED takes them for both.
+bool on_one_side(const std::vector<GonioAngles>& angles) {
+  bool left = false, right = false;
+  for (const GonioAngles& pose : angles) {
+    const double across = pose.theta_o.sin() * (pose.phi_o - pose.phi_i).sin();
+    constexpr double rounding = 1e-9;
+    left = left || across > rounding, right = right || across < -rounding;
+  }
+  return left != right;
+}
+
 }  // namespace
 
 Dataset read_fred(const std::filesystem::path& path, const ReadOptions& options) {
@@ -142,7 +153,7 @@ Dataset read_fred(const std::filesystem::path& path, const ReadOptions& options)
   }
   if (faults.empty() && out.size() == 0) faults.add(faults.file(), "no sample", "at least one");
   faults.raise();
-  out.symmetry.isotropic = !several_azimuths;
+  out.symmetry = {.isotropic = !several_azimuths, .bilateral = !several_azimuths && on_one_side(out.angles)};
   out.provenance = {{"source", path.filename().string()}};
   return out;
 }

@@ -50,7 +50,7 @@ ExportNotes write_fred(const Opened& source, const std::filesystem::path& path, 
     throw Error(ErrorKind::input, {path.string(), fmt::format("a {} that cannot be evaluated", source.format), "a model or a table"});
   ExportNotes notes;
   notes.files = {path};
-  const Side side = side_of(source);
+  const Side side = source.side;
   const bool isotropic = source.brdf->symmetry().isotropic;
   const std::vector<GonioAngles> poses = source.dataset ? source.dataset->angles : specular_poses(source, options);
   const auto values = values_to_write(source, poses, one_channel(source.brdf->channels()), options.threads, notes);

@@ -22,7 +22,7 @@ std::vector<std::vector<double>> lattice_values(const Opened& source, const Latt
                                                 ExportNotes& notes) {
   if (!source.brdf)
     throw Error(ErrorKind::input, {"the source", fmt::format("a {} that cannot be evaluated", source.format), "a model or a table"});
-  if (side_of(source) != lattice.side)
+  if (source.side != lattice.side)
     throw Error(ErrorKind::input, {"the source", "scatter to the other side of the surface", "what the format holds"});
   const Symmetry symmetry = source.brdf->symmetry();
   if (!symmetry.isotropic && lattice.nodes_deg[1].size() == 1)

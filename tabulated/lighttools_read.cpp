@@ -11,8 +11,8 @@
 #include "tabulated/fault_list.hpp"
 #include "tabulated/keyword_text.hpp"
 #include "tabulated/lighttools.hpp"
-#include "tabulated/opened_samples.hpp"
 #include "tabulated/polar_block.hpp"
+#include "tabulated/values_to_write.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -213,7 +213,7 @@ bool recognises_lighttools(std::string_view head, std::uintmax_t) {
 }
 
 Opened open_lighttools(const std::filesystem::path& path, const ReadOptions& options) {
-  Opened out = opened_samples("lighttools", std::make_shared<const Dataset>(read_lighttools(path, options)));
+  Opened out = opened_grid("lighttools", std::make_shared<const Dataset>(read_lighttools(path, options)));
   out.info.insert(out.info.begin(), {{"holds", out.dataset->side == Side::reflection ? "f (BRDF)" : "f (BTDF)"},
                                      {"unit", "1/sr"},
                                      {"nodes", "at samples; absolute angles, the light at azimuth 90 deg"}});

@@ -36,7 +36,7 @@ ExportNotes write_lighttools(const Opened& source, const std::filesystem::path& 
                 {path.string(), "an anisotropic source", "an isotropic one: how planes of incidence turn in the format is not published"});
   ExportNotes notes;
   notes.files = {path};
-  const Side side = side_of(source);
+  const Side side = source.side;
   std::optional<DirectionGrid> own = source.dataset ? grid_of_samples(*source.dataset) : std::nullopt;
   const DirectionGrid grid = own ? *own : direction_grid(options.size, {true, false, false});
   // Azimuths of wo where the light is at 90°, from 0 on.

@@ -186,7 +186,7 @@ Opened open_mbsdf(const std::filesystem::path& path, const ReadOptions& options)
 ExportNotes write_mbsdf(const Opened& source, const std::filesystem::path& path, const WriteOptions& options) {
   ExportNotes notes;
   const auto* own = source.brdf ? dynamic_cast<const LatticeTable*>(source.brdf.get()) : nullptr;
-  const Side side = side_of(source);
+  const Side side = source.side;
   std::size_t zenith_count = options.size == GridSize::paper ? 45 : options.size == GridSize::standard ? 90 : 180;
   std::size_t azimuth_count = options.size == GridSize::fine ? 180 : 90;
   if (own != nullptr && own->lattice() == lattice_of(own->lattice().nodes_deg[0].size(), own->lattice().nodes_deg[3].size(), 0.5, side)) {

@@ -19,7 +19,8 @@ void append_samples(const PolarBlock& block, Dataset& out) {
       bool seen = p > 0 && same_direction;
       for (const auto& column : block.values) seen = seen && column[t * azimuths + p] == column[t * azimuths];
       if (seen) continue;
-      out.angles.push_back({block.theta_i, block.phi_i, degrees(theta), block.phi_of_first_axis + degrees(block.phi_deg[p])});
+      const Angle phi = block.phi_of_first_axis + degrees(block.phi_deg[p]);
+      out.angles.push_back({block.theta_i, block.phi_i, degrees(theta), phi.degrees() < 360 ? phi : phi - degrees(360)});
       for (std::size_t c = 0; c < block.values.size(); ++c) out.f[c].push_back(block.values[c][t * azimuths + p]);
     }
 }

@@ -68,7 +68,7 @@ std::string radiance_document(const std::string& structure, const KlemsBasis* ba
 ChannelMap radiance_channels(const Opened& source) {
   if (!source.brdf)
     throw Error(ErrorKind::input, {"the source", fmt::format("a {} that cannot be evaluated", source.format), "a model or a table"});
-  if (side_of(source) == Side::transmission)
+  if (source.side == Side::transmission)
     throw Error(ErrorKind::input, {"the source", fmt::format("the transmission of a {}", source.format), "reflection"});
   return source.brdf->channels().size() == 1 ? one_channel(source.brdf->channels()) : map_to_rgb(source.brdf->channels());
 }

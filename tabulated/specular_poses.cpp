@@ -9,7 +9,7 @@ namespace gonio::tabulated {
 
 std::vector<GonioAngles> specular_poses(const Opened& source, const WriteOptions& options) {
   const Symmetry symmetry = source.brdf->symmetry();
-  const Side side = side_of(source);
+  const Side side = source.side;
   const double step = options.size == GridSize::paper ? 15 : options.size == GridSize::standard ? 10 : 5;
   const std::size_t count = options.size == GridSize::paper ? 32 : options.size == GridSize::standard ? 64 : 128;
   const std::vector<double> incidences = incidence_grid(options.size),

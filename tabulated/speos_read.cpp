@@ -12,10 +12,10 @@
 #include "tabulated/csv_text.hpp"
 #include "tabulated/fault_list.hpp"
 #include "tabulated/keyword_text.hpp"
-#include "tabulated/opened_samples.hpp"
 #include "tabulated/polar_block.hpp"
 #include "tabulated/polar_integral.hpp"
 #include "tabulated/speos.hpp"
+#include "tabulated/values_to_write.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -258,7 +258,7 @@ bool recognises_speos(std::string_view head, std::uintmax_t) {
 }
 
 Opened open_speos(const std::filesystem::path& path, const ReadOptions& options) {
-  Opened out = opened_samples("speos", std::make_shared<const Dataset>(read_speos(path, options)));
+  Opened out = opened_grid("speos", std::make_shared<const Dataset>(read_speos(path, options)));
   out.info.insert(out.info.begin(), {{"holds", out.dataset->side == Side::reflection ? "f (BRDF)" : "f (BTDF)"},
                                      {"unit", "1/sr"},
                                      {"nodes", "at samples; azimuth 0 on the specular side"}});

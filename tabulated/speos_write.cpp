@@ -33,7 +33,7 @@ ExportNotes write_speos(const Opened& source, const std::filesystem::path& path,
     throw Error(ErrorKind::input, {path.string(), "an anisotropic source", "an isotropic one: a .brdf has no orientation"});
   ExportNotes notes;
   notes.files = {path};
-  const Side side = side_of(source);
+  const Side side = source.side;
   const std::optional<DirectionGrid> own = source.dataset ? grid_of_samples(*source.dataset) : std::nullopt;
   const DirectionGrid grid = own ? *own : direction_grid(options.size, {true, false, false});
   if (grid.theta_i_deg.size() < 2)

@@ -49,7 +49,7 @@ Lattice grid_of(LatticeCoordinates coordinates, const Opened& source, GridSize s
   const Counts counts = counts_of(size);
   Lattice out;
   out.coordinates = coordinates;
-  out.side = side_of(source);
+  out.side = source.side;
   out.bilateral = symmetry.isotropic && symmetry.bilateral;
   const DirectionGrid directions = direction_grid(size, symmetry);
   // Full turns with both ends, as the examples of the document have them.

@@ -172,7 +172,7 @@ ExportNotes write_tracepro(const Opened& source, const std::filesystem::path& pa
   if (!source.brdf->symmetry().isotropic) throw Error(ErrorKind::input, {path.string(), "an anisotropic source", "an isotropic one"});
   ExportNotes notes;
   notes.files = {path};
-  const Side side = side_of(source);
+  const Side side = source.side;
   const bool paper = options.size == GridSize::paper, standard = options.size == GridSize::standard;
   const std::vector<double> incidences = incidence_grid(options.size), azimuths = even_angles(0,
                                                                                               paper      ? 330

@@ -3,15 +3,41 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 
 #include "brdf/error.hpp"
 #include "tabulated/csv_text.hpp"
+#include "tabulated/lattice_table.hpp"
 #include "tabulated/node_values.hpp"
+#include "tabulated/opened_samples.hpp"
 
 namespace gonio::tabulated {
+namespace {
+
+/// Angles that came through radians differ in their last digits.
+constexpr double same_angle_deg = 1e-9;
+
+/// theta_i, theta_o from the normal of its side, phi_o - phi_i in [0, 360), in degrees; azimuth 0 at the normal.
+using Node = std::array<double, 3>;
+
+Node node_of(const GonioAngles& pose, Side side) {
+  const auto rounded = [](double degrees) { return std::round(degrees / same_angle_deg) * same_angle_deg; };
+  const auto nearest = [&](double degrees) {
+    // A whole number of hundredths, as people write angles, comes out as the same double as theirs.
+    constexpr double hundredths = 100;
+    const double short_one = std::round(degrees * hundredths) / hundredths;
+    return std::fabs(short_one - degrees) < same_angle_deg ? short_one : rounded(degrees);
+  };
+  const double out = nearest(side == Side::transmission ? 180 - pose.theta_o.degrees() : pose.theta_o.degrees());
+  double turn = nearest(std::fmod(pose.phi_o.degrees() - pose.phi_i.degrees(), 360.0));
+  if (turn < 0) turn += 360;
+  return {nearest(pose.theta_i.degrees()), out, out == 0 || turn == 360 ? 0 : turn};
+}
+
+}  // namespace
 
 Side side_of(const Opened& source) { return source.dataset ? source.dataset->side : source.side; }
 
@@ -48,23 +74,41 @@ std::vector<std::vector<double>> values_to_write(const Opened& source, std::span
   return out;
 }
 
+Opened opened_grid(std::string format, std::shared_ptr<const Dataset> samples) {
+  const std::optional<DirectionGrid> grid = grid_of_samples(*samples);
+  Opened out = opened_samples(std::move(format), samples);
+  if (!grid) return out;
+  Lattice lattice{.nodes_deg = {grid->theta_i_deg, {0}, grid->theta_o_deg, grid->phi_deg}, .offset_deg = {}};
+  lattice.bilateral = samples->symmetry.bilateral && grid->phi_deg.back() <= 180;
+  lattice.side = samples->side;
+  std::vector<std::vector<double>> values(samples->channels.size(), std::vector<double>(lattice.size()));
+  const auto place = [](const std::vector<double>& nodes, double angle) {
+    // Angles that came through radians lie beside their node.
+    const auto above = std::lower_bound(nodes.begin(), nodes.end(), angle - same_angle_deg);
+    return static_cast<std::size_t>(std::min(above, nodes.end() - 1) - nodes.begin());
+  };
+  for (std::size_t k = 0; k < samples->size(); ++k) {
+    const Node node = node_of(samples->angles[k], samples->side);
+    std::array<std::size_t, 4> at{place(grid->theta_i_deg, node[0]), 0, place(grid->theta_o_deg, node[1]), place(grid->phi_deg, node[2])};
+    const bool normal = node[1] == 0;  // one sample for all azimuths
+    for (at[3] = normal ? 0 : at[3]; at[3] < grid->phi_deg.size(); ++at[3]) {
+      for (std::size_t c = 0; c < values.size(); ++c) values[c][lattice.index(at)] = samples->f[c][k];
+      if (!normal) break;
+    }
+  }
+  out.brdf = std::make_shared<const LatticeTable>(std::move(lattice), samples->channels, std::move(values));
+  return out;
+}
+
 std::optional<DirectionGrid> grid_of_samples(const Dataset& samples) {
   if (!samples.symmetry.isotropic || samples.size() == 0) return std::nullopt;
-  using Node = std::array<double, 3>;
   std::set<Node> nodes;
   std::set<double> theta_i, theta_o, phi;
   for (const GonioAngles& pose : samples.angles) {
-    const double out = samples.side == Side::transmission ? 180 - pose.theta_o.degrees() : pose.theta_o.degrees();
-    // Angles that came through radians differ in their last digits.
-    constexpr double digits = 1e9;
-    const auto rounded = [](double degrees) { return std::round(degrees * digits) / digits; };
-    double turn = rounded(std::fmod(pose.phi_o.degrees() - pose.phi_i.degrees(), 360.0));
-    if (turn < 0) turn += 360;
-    if (out == 0) turn = 0;  // the normal has no azimuth
-    const Node node{rounded(pose.theta_i.degrees()), rounded(out), turn};
+    const Node node = node_of(pose, samples.side);
     if (!nodes.insert(node).second) return std::nullopt;
     theta_i.insert(node[0]), theta_o.insert(node[1]);
-    if (out != 0) phi.insert(turn);
+    if (node[1] != 0) phi.insert(node[2]);
   }
   if (phi.empty()) return std::nullopt;
   const bool with_normal = *theta_o.begin() == 0;

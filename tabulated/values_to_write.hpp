@@ -2,8 +2,10 @@
 // What a writer of a text format writes, and where: the values at given poses, and the grid the source already has.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "brdf/coordinates.hpp"
@@ -13,9 +15,6 @@
 #include "tabulated/open.hpp"
 
 namespace gonio::tabulated {
-
-/// The side on which a source scatters: that of its samples; everything else reflects.
-Side side_of(const Opened& source);
 
 /// One channel stays what it is; several become X, Y, Z, or the luminance Y alone.
 ChannelMap one_channel_or_xyz(const Channels& channels);
@@ -29,5 +28,8 @@ std::vector<std::vector<double>> values_to_write(const Opened& source, std::span
 /// The lists of angles if the samples of an isotropic source are all nodes of a product of zenith angles and azimuths from that of the
 /// light, none missing (in transmission theta_o counts from -z); else nothing.
 std::optional<DirectionGrid> grid_of_samples(const Dataset& samples);
+
+/// The samples as `opened_samples` hands them out; evaluated linearly between the nodes of their grid if `grid_of_samples` finds one.
+Opened opened_grid(std::string format, std::shared_ptr<const Dataset> samples);
 
 }  // namespace gonio::tabulated

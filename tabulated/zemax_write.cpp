@@ -79,7 +79,7 @@ std::string tis_difference(const ZemaxTable& table) {
 SpecularGrid grid_for(const Opened& source, const WriteOptions& options) {
   SpecularGrid grid;
   const Symmetry symmetry = source.brdf->symmetry();
-  grid.side = side_of(source);
+  grid.side = source.side;
   grid.mirrored = symmetry.isotropic && symmetry.bilateral;
   const double step = options.size == GridSize::paper ? 15 : options.size == GridSize::standard ? 10 : 5;
   grid.rotation_deg = symmetry.isotropic ? std::vector<double>{0} : even_angles(0, 360, options.size == GridSize::fine ? 10 : 30);

@@ -54,3 +54,16 @@ TEST_CASE("Values come out per channel of the file, negative ones kept, with wha
   CHECK(notes.n_negative == samples.size());
   CHECK(notes.lost.size() == 1);
 }
+
+TEST_CASE("Samples on a grid are evaluated linearly between its nodes, others by their neighbours") {
+  Dataset samples = product({0, 20, 40}, {0, 90, 180, 270});
+  for (std::size_t k = 0; k < samples.size(); ++k) samples.f[0][k] = samples.angles[k].theta_o.degrees();
+  const Opened grid = opened_grid("csv", std::make_shared<const Dataset>(samples));
+  for (const double theta : {0.0, 7.0, 25.0, 40.0})
+    for (const double phi : {0.0, 33.0, 181.0, 300.0})
+      CHECK(std::abs(grid.brdf->eval(Direction::spherical(12_deg, 50_deg), Direction::spherical(degrees(theta), degrees(phi)))[0] - theta) <
+            1e-9);
+  samples.angles.pop_back(), samples.f[0].pop_back();
+  const Opened scattered = opened_grid("csv", std::make_shared<const Dataset>(samples));
+  CHECK(scattered.brdf->eval(samples.angles[3].wi(), samples.angles[3].wo())[0] == samples.f[0][3]);
+}
