@@ -2,6 +2,7 @@
 // Look-up tables of BRDFs of ASAM OpenMATERIAL 3D: JSON.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
@@ -9,6 +10,10 @@
 #include "tabulated/open.hpp"
 
 namespace gonio::tabulated {
+
+/// Where the lines from the white point D65 through the primaries r, g, b of sRGB meet the spectral locus (CIE 1931): where our files have
+/// red, green and blue. A file of just these wavelengths is read as r, g, b.
+constexpr std::array<double, 3> primary_wavelengths_nm{611.4, 549.1, 464.3};
 
 /// Rows (wavelength [m], theta_i, theta_o, phi_o - phi_i [rad], f [1/sr]) of an isotropic BRDF, sorted; rules in
 /// data-schemas/openmaterial-brdf.schema.json. The azimuth is relative to that of the direction to the light, so that mirror reflection is

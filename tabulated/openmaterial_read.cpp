@@ -56,6 +56,15 @@ double azimuth_offset(const ReadOptions& options) {
   throw Error(ErrorKind::usage, {"--assume specular_azimuth_deg", *answer, "180 or 0"});
 }
 
+/// Channels at the wavelengths of the primaries are r, g and b.
+void name_primaries(Dataset& data) {
+  if (data.channels.size() != primary_wavelengths_nm.size()) return;
+  for (std::size_t c = 0; c < primary_wavelengths_nm.size(); ++c)  // channels come by increasing wavelength: b, g, r
+    if (data.channels[c].wavelength_in_nm != primary_wavelengths_nm[primary_wavelengths_nm.size() - 1 - c]) return;
+  data.channels = rgb_channels();
+  std::reverse(data.f.begin(), data.f.end());
+}
+
 std::optional<double> half_angle_deg(const Json& brdf) {
   const Json& receivers = brdf.get("receiverSolidAngles");
   if (receivers.size() == 0) return std::nullopt;
@@ -102,6 +111,7 @@ Opened open_openmaterial(const std::filesystem::path& path, const ReadOptions& o
   if (data.size() == 0) throw Error(ErrorKind::input, {path.string(), "no row with a value", "at least one"});
   const std::size_t n_rows = data.size();
   if (spectral) data = channels_by_wavelength(std::move(data), wavelength_nm, faults);
+  name_primaries(data);
   data.symmetry.isotropic = true;
   data.apertures.receiver_half_angle_deg = half_angle_deg(brdf);
   const Json& metadata = document.get("metadata");

@@ -27,9 +27,9 @@ std::vector<std::optional<double>> wavelengths_of(const Channels& channels, cons
   const auto known = static_cast<std::size_t>(std::count_if(out.begin(), out.end(), [](const auto& nm) { return nm.has_value(); }));
   if (known == channels.size()) return out;
   if (channels.size() == 3 && channels[0].name == "r" && channels[1].name == "g" && channels[2].name == "b") {
-    // Where the lines from the white point D65 through the primaries of sRGB meet the spectral locus (CIE 1931).
     notes.lost.emplace_back("r, g and b stand at 611.4, 549.1 and 464.3 nm, the dominant wavelengths of the primaries of sRGB");
-    return {611.4 / nm_per_m, 549.1 / nm_per_m, 464.3 / nm_per_m};
+    for (std::size_t c = 0; c < 3; ++c) out[c] = primary_wavelengths_nm[c] / nm_per_m;
+    return out;
   }
   if (channels.size() == 1) {
     notes.lost.emplace_back("the wavelength is not known: it is null");

@@ -23,7 +23,9 @@ namespace {
 Opened model(Channels channels) {
   Opened out;
   out.format = "test";
-  out.brdf = std::make_shared<AnalyticBrdf>("phong", channels, std::vector<std::vector<double>>(channels.size(), {0.1, 0.3, 40}));
+  std::vector<std::vector<double>> parameters;
+  for (std::size_t c = 0; c < channels.size(); ++c) parameters.push_back({0.1 + 0.1 * static_cast<double>(c), 0.3, 40});
+  out.brdf = std::make_shared<AnalyticBrdf>("phong", channels, parameters);
   return out;
 }
 
@@ -53,7 +55,7 @@ TEST_CASE("A model written as a look-up table meets the rules and comes back at 
     for (const Fault& fault : gonio::faults_of(document, Schema::openmaterial_brdf, "")) FAIL_CHECK(fault.where << " " << fault.found);
     const Opened read = open_brdf(scratch / "x.json");
     CHECK(read.format == "openmaterial-json");
-    CHECK(read.dataset->channels.size() == channels.size());
+    CHECK(read.dataset->channels == channels);
     ExportNotes notes;
     const auto sampled = with_both_sides(samples_to_write(source, paper(), notes));
     REQUIRE(read.dataset->size() == sampled->size());
