@@ -78,23 +78,28 @@ double MarginalWarp::integral(const float* density, std::size_t rows, std::size_
 }
 
 MarginalWarp::MarginalWarp(std::vector<float> density, std::size_t rows, std::size_t columns)
-    : rows_(rows), columns_(columns), density_(std::move(density)) {
-  const std::size_t size = rows * columns, slices = density_.size() / size;
-  conditional_.resize(density_.size());
-  marginal_.resize(slices * rows);
+    : rows_(rows), columns_(columns), nodes_(density.size()), row_sums_(density.size() / columns) {
+  const std::size_t size = rows * columns, slices = density.size() / size;
   for (std::size_t slice = 0; slice < slices; ++slice) {
-    const float* values = density_.data() + slice * size;
+    const float* values = density.data() + slice * size;
     const double scale = 1 / integral(values, rows, columns);
     scale_.push_back(scale);
-    double* along = conditional_.data() + slice * size;
-    double* across = marginal_.data() + slice * rows;
-    for (std::size_t row = 0; row < rows; ++row, along += columns, values += columns) {
-      along[0] = 0;
+    Node* node = nodes_.data() + slice * size;
+    Row* sums = row_sums_.data() + slice * rows;
+    for (std::size_t row = 0; row < rows; ++row, node += columns, values += columns) {
+      node[0] = {0, values[0]};
       for (std::size_t k = 1; k < columns; ++k)
-        along[k] = along[k - 1] + 0.5 * scale * (static_cast<double>(values[k - 1]) + static_cast<double>(values[k]));
-      across[row] = row == 0 ? 0 : across[row - 1] + 0.5 * (along[-1] + along[columns - 1]);
+        node[k] = {node[k - 1].before + 0.5 * scale * (static_cast<double>(values[k - 1]) + static_cast<double>(values[k])), values[k]};
+      sums[row].whole = node[columns - 1].before;
+      sums[row].before = row == 0 ? 0 : sums[row - 1].before + 0.5 * (sums[row - 1].whole + sums[row].whole);
     }
   }
+}
+
+std::vector<float> MarginalWarp::density() const {
+  std::vector<float> out;
+  for (const Node& node : nodes_) out.push_back(node.density);
+  return out;
 }
 
 UnitPoint MarginalWarp::invert(const SliceWeights& slices, UnitPoint at) const noexcept {
@@ -103,13 +108,15 @@ UnitPoint MarginalWarp::invert(const SliceWeights& slices, UnitPoint at) const n
   for (std::size_t k = 0; k < slices.slice.size(); ++k) {
     const double weight = slices.weight[k];
     if (weight == 0) continue;
-    const std::size_t slice = slices.slice[k];
-    rows_before += weight * marginal_[slice * rows_ + y.low];
+    const std::size_t slice = slices.slice[k], row = slice * rows_ + y.low;
+    rows_before += weight * row_sums_[row].before;
+    const double scaled = weight * scale_[slice];
     for (std::size_t j = 0; j < 2; ++j) {
-      const std::size_t row = (slice * rows_ + y.low + j) * columns_;
-      before[j] += weight * conditional_[row + x.low];
-      whole[j] += weight * conditional_[row + columns_ - 1];
-      for (std::size_t i = 0; i < 2; ++i) density[j][i] += weight * scale_[slice] * static_cast<double>(density_[row + x.low + i]);
+      const Node* node = nodes_.data() + (row + j) * columns_ + x.low;
+      before[j] += weight * node->before;
+      whole[j] += weight * row_sums_[row + j].whole;
+      density[j][0] += scaled * static_cast<double>(node[0].density);
+      density[j][1] += scaled * static_cast<double>(node[1].density);
     }
   }
   const double first = mixed(density[0][0], density[1][0], y.part), last = mixed(density[0][1], density[1][1], y.part);
@@ -125,20 +132,19 @@ UnitPoint MarginalWarp::sample(std::size_t slice, UnitPoint uniform) const noexc
   constexpr double border = 6e-8;  // half a unit in the last place of a float below 1
   const double across = std::clamp(uniform.y, border, 1 - border), along = std::clamp(uniform.x, border, 1 - border);
 
-  const double* marginal = marginal_.data() + slice * rows_;
-  const std::size_t row = cell_reaching(rows_, across, [&](std::size_t k) { return marginal[k]; });
-  const double* low = conditional_.data() + (slice * rows_ + row) * columns_;
-  const double* high = low + columns_;
-  const double y = part_at(across - marginal[row], low[columns_ - 1], high[columns_ - 1]);
+  const Row* sums = row_sums_.data() + slice * rows_;
+  const std::size_t row = cell_reaching(rows_, across, [&](std::size_t k) { return sums[k].before; });
+  const Node* low = nodes_.data() + (slice * rows_ + row) * columns_;
+  const Node* high = low + columns_;
+  const double y = part_at(across - sums[row].before, sums[row].whole, sums[row + 1].whole);
 
-  const auto reached = [&](std::size_t k) { return mixed(low[k], high[k], y); };
+  const auto reached = [&](std::size_t k) { return mixed(low[k].before, high[k].before, y); };
   const double amount = along * reached(columns_ - 1);
   const std::size_t column = cell_reaching(columns_, amount, reached);
-  const float* values = density_.data() + (slice * rows_ + row) * columns_ + column;
   const auto density = [&](std::size_t k) {
-    return scale_[slice] * mixed(static_cast<double>(values[k]), static_cast<double>(values[columns_ + k]), y);
+    return scale_[slice] * mixed(static_cast<double>(low[k].density), static_cast<double>(high[k].density), y);
   };
-  const double x = part_at(amount - reached(column), density(0), density(1));
+  const double x = part_at(amount - reached(column), density(column), density(column + 1));
   return {(static_cast<double>(column) + x) / static_cast<double>(columns_ - 1),
           (static_cast<double>(row) + y) / static_cast<double>(rows_ - 1)};
 }

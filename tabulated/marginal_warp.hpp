@@ -40,7 +40,7 @@ class MarginalWarp {
   MarginalWarp(std::vector<float> density, std::size_t rows, std::size_t columns);
 
   /// What it was made from.
-  const std::vector<float>& density() const noexcept { return density_; }
+  std::vector<float> density() const;
 
   /// Where a point goes under the map that makes the density uniform. NaN in x where the whole row has no density: nothing was there.
   UnitPoint invert(const SliceWeights& slices, UnitPoint at) const noexcept;
@@ -51,11 +51,20 @@ class MarginalWarp {
   static double integral(const float* density, std::size_t rows, std::size_t columns) noexcept;
 
  private:
+  /// What a look-up needs of one place stands together: it is memory that a look-up waits for.
+  struct Node {
+    double before;  ///< integral along the row up to the node, normalised
+    float density;  ///< as given
+  };
+  struct Row {
+    double before;  ///< integral of the rows up to this one, normalised
+    double whole;   ///< integral of the row, normalised
+  };
+
   std::size_t rows_ = 0, columns_ = 0;
-  std::vector<float> density_;
-  std::vector<double> scale_;        ///< [slice] 1/integral
-  std::vector<double> conditional_;  ///< [slice][row][column] integral along the row up to the node, normalised
-  std::vector<double> marginal_;     ///< [slice][row] integral of the rows up to this one, normalised
+  std::vector<Node> nodes_;    ///< [slice][row][column]
+  std::vector<Row> row_sums_;  ///< [slice][row]
+  std::vector<double> scale_;  ///< [slice] 1/integral
 };
 
 }  // namespace gonio::tabulated

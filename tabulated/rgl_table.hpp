@@ -62,8 +62,9 @@ class RglTable final : public Brdf {
   SliceWeights slices_at(double theta_i, double phi_i) const noexcept;
   UnitPoint unit_point(double theta, double phi) const noexcept;
 
-  RglArrays arrays_;
+  RglArrays arrays_;  ///< but for vndf and values
   MarginalWarp vndf_;
+  std::vector<float> values_;  ///< [P, T, row, column, channel]: the channels of a node together
   int turns_;
 };
 
