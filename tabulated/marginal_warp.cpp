@@ -49,10 +49,15 @@ Neighbours neighbours_in(const std::vector<float>& increasing, double at) noexce
   const std::size_t last = increasing.size() - 1;
   if (!(at > static_cast<double>(increasing.front()))) return {0, 0, 0};
   if (at >= static_cast<double>(increasing.back())) return {last, last, 0};
-  const auto above =
-      std::upper_bound(increasing.begin(), increasing.end(), at, [](double a, float b) { return a < static_cast<double>(b); });
-  const auto high = static_cast<std::size_t>(above - increasing.begin());
-  const double a = static_cast<double>(increasing[high - 1]), b = static_cast<double>(increasing[high]);
+  // Halving without branches: which half it is nobody can predict.
+  const float* below = increasing.data();
+  for (std::size_t count = last; count > 1;) {
+    const std::size_t half = count / 2;
+    below = static_cast<double>(below[half]) <= at ? below + half : below;
+    count -= half;
+  }
+  const auto high = static_cast<std::size_t>(below - increasing.data()) + 1;
+  const double a = static_cast<double>(below[0]), b = static_cast<double>(below[1]);
   return {high - 1, high, (at - a) / (b - a)};
 }
 
@@ -126,6 +131,17 @@ UnitPoint MarginalWarp::invert(const SliceWeights& slices, UnitPoint at) const n
                      : std::numeric_limits<double>::quiet_NaN();
   out.y = rows_before + integral_to(y.part, whole[0], whole[1]);
   return out;
+}
+
+void MarginalWarp::prefetch(const SliceWeights& slices, UnitPoint at) const noexcept {
+  const Cell x = cell_of(at.x, columns_), y = cell_of(at.y, rows_);
+  for (std::size_t k = 0; k < slices.slice.size(); ++k) {
+    if (slices.weight[k] == 0) continue;
+    const std::size_t row = slices.slice[k] * rows_ + y.low;
+    __builtin_prefetch(&row_sums_[row]);
+    __builtin_prefetch(&nodes_[row * columns_ + x.low]);
+    __builtin_prefetch(&nodes_[(row + 1) * columns_ + x.low]);
+  }
 }
 
 UnitPoint MarginalWarp::sample(std::size_t slice, UnitPoint uniform) const noexcept {

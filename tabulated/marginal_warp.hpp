@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "tabulated/large_array.hpp"
+
 namespace gonio::tabulated {
 
 /// A point of the unit square.
@@ -44,6 +46,8 @@ class MarginalWarp {
 
   /// Where a point goes under the map that makes the density uniform. NaN in x where the whole row has no density: nothing was there.
   UnitPoint invert(const SliceWeights& slices, UnitPoint at) const noexcept;
+  /// Begins to bring what `invert` will need from memory.
+  void prefetch(const SliceWeights& slices, UnitPoint at) const noexcept;
   /// The inverse of `invert` in one slice. Points are drawn in from the border by 6e-8, as those who write such files do.
   UnitPoint sample(std::size_t slice, UnitPoint uniform) const noexcept;
 
@@ -62,7 +66,7 @@ class MarginalWarp {
   };
 
   std::size_t rows_ = 0, columns_ = 0;
-  std::vector<Node> nodes_;    ///< [slice][row][column]
+  LargeArray<Node> nodes_;     ///< [slice][row][column]
   std::vector<Row> row_sums_;  ///< [slice][row]
   std::vector<double> scale_;  ///< [slice] 1/integral
 };

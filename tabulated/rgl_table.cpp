@@ -2,9 +2,11 @@
 #include "tabulated/rgl_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 #include <utility>
 
 namespace gonio::tabulated {
@@ -31,8 +33,11 @@ DirectionPair folded(const Direction& wi, const Direction& wo, int turns, double
 
 /// The four nodes around a point of a grid: the first of them and their weights.
 struct Corners {
+  Corners() = default;
+  /// Weights of NaN for a point that is not known.
   Corners(UnitPoint at, std::size_t rows, std::size_t columns) {
     const auto cell = [](double coordinate, std::size_t nodes, std::size_t& first) {
+      if (std::isnan(coordinate)) return coordinate;
       const double scaled = std::clamp(coordinate, 0.0, 1.0) * static_cast<double>(nodes - 1);
       first = std::min(static_cast<std::size_t>(scaled), nodes - 2);
       return scaled - static_cast<double>(first);
@@ -43,18 +48,21 @@ struct Corners {
     weight[0] = (1 - y) * (1 - x), weight[1] = (1 - y) * x, weight[2] = y * (1 - x), weight[3] = y * x;
   }
 
-  std::size_t low;
-  double weight[4];
+  std::size_t low = 0;
+  double weight[4] = {};
 };
 
 /// Blocks of rows x columns numbers, each with its columns as rows.
-std::vector<float> transposed(const std::vector<float>& values, std::size_t rows, std::size_t columns) {
-  std::vector<float> out(values.size());
+template <class Out, class In>
+Out transposed(const In& values, std::size_t rows, std::size_t columns) {
+  Out out(values.size());
   for (std::size_t block = 0; block < values.size(); block += rows * columns)
     for (std::size_t row = 0; row < rows; ++row)
       for (std::size_t column = 0; column < columns; ++column) out[block + column * rows + row] = values[block + row * columns + column];
   return out;
 }
+
+double wrapped(double turns) { return turns - std::floor(turns); }
 
 /// The azimuth `phi` plus whole turns so that it lies in or nearest above `first`.
 double from(double first, double phi) { return phi + 2 * pi * std::ceil((first - phi) / (2 * pi) - 1e-9); }
@@ -75,67 +83,102 @@ int RglTable::turns(const std::vector<float>& phi_i) noexcept {
 RglTable::RglTable(RglArrays arrays)
     : arrays_(std::move(arrays)),
       vndf_(std::exchange(arrays_.vndf, {}), arrays_.vndf_rows, arrays_.vndf_columns),
-      values_(transposed(std::exchange(arrays_.values, {}), arrays_.channels.size(), arrays_.value_rows * arrays_.value_columns)),
+      values_(transposed<LargeArray<float>>(std::exchange(arrays_.values, {}), arrays_.channels.size(),
+                                            arrays_.value_rows * arrays_.value_columns)),
       turns_(turns(arrays_.phi_i)) {}
 
 RglArrays RglTable::arrays() const {
   RglArrays out = arrays_;
   out.vndf = vndf_.density();
-  out.values = transposed(values_, arrays_.value_rows * arrays_.value_columns, arrays_.channels.size());
+  out.values = transposed<std::vector<float>>(values_, arrays_.value_rows * arrays_.value_columns, arrays_.channels.size());
   return out;
 }
 
 UnitPoint RglTable::unit_point(double theta, double phi) const noexcept {
-  const double y = (phi + pi) / (2 * pi);
-  return {std::sqrt(theta * 2 / pi), y - std::floor(y)};
+  return {std::sqrt(theta * 2 / pi), wrapped((phi + pi) / (2 * pi))};
 }
 
 SliceWeights RglTable::slices_at(double theta_i, double phi_i) const noexcept {
-  const Neighbours t = neighbours_in(arrays_.theta_i, theta_i), p = neighbours_in(arrays_.phi_i, phi_i);
+  const Neighbours t = neighbours_in(arrays_.theta_i, theta_i);
+  const Neighbours p = arrays_.phi_i.size() == 1 ? Neighbours{} : neighbours_in(arrays_.phi_i, phi_i);
   const std::size_t count = arrays_.theta_i.size();
   return {{p.low * count + t.low, p.low * count + t.high, p.high * count + t.low, p.high * count + t.high},
           {(1 - p.weight) * (1 - t.weight), (1 - p.weight) * t.weight, p.weight * (1 - t.weight), p.weight * t.weight}};
 }
 
-void RglTable::eval(std::span<const Direction> wi, std::span<const Direction> wo, std::span<double> f) const {
+template <class Place>
+void RglTable::look_up(RglPairs& pairs, Place&& place) const {
   const std::size_t channel_count = arrays_.channels.size(), columns = arrays_.value_columns, rows = arrays_.value_rows;
-  const double first = static_cast<double>(arrays_.phi_i.front()), last = static_cast<double>(arrays_.phi_i.back());
-  const bool isotropic = is_isotropic(arrays_.phi_i), one_azimuth = arrays_.phi_i.size() == 1;
-  for (std::size_t k = 0; k < wi.size(); ++k) {
-    double* out = f.data() + k * channel_count;
-    std::fill(out, out + channel_count, 0.0);
-    if (!(wi[k].z() > 0) || !(wo[k].z() > 0)) continue;
-    const auto [i, o] = turns_ == 1 ? DirectionPair{wi[k], wo[k]} : folded(wi[k], wo[k], turns_, first, last);
-    const double theta_i = std::atan2(std::sqrt(i.x() * i.x() + i.y() * i.y()), i.z());
-    const double azimuth = one_azimuth ? 0 : std::atan2(i.y(), i.x());  // else only relative azimuths count
-    const double hx = i.x() + o.x(), hy = i.y() + o.y(), hz = i.z() + o.z();
-    const double theta_m = std::atan2(std::sqrt(hx * hx + hy * hy), hz);
-    const bool along_i = isotropic && (i.x() != 0 || i.y() != 0);  // the azimuth of the half vector from that of wi
-    const double phi_m = along_i ? std::atan2(hy * i.x() - hx * i.y(), hx * i.x() + hy * i.y()) : std::atan2(hy, hx);
-
-    const SliceWeights slices = slices_at(theta_i, isotropic ? azimuth : from(first, azimuth));
-    const UnitPoint m = unit_point(theta_m, phi_m);
-    const UnitPoint s = vndf_.invert(slices, m);
-    const double ndf = bilinear(arrays_.ndf.data(), arrays_.angle_rows, arrays_.angle_columns, m);
-    const double sigma = bilinear(arrays_.sigma.data(), arrays_.angle_rows, arrays_.angle_columns, unit_point(theta_i, azimuth));
-    if (std::isnan(s.x)) {
-      std::fill(out, out + channel_count, std::numeric_limits<double>::quiet_NaN());
-      continue;
-    }
-    const double factor = ndf / (4 * sigma * o.z());
-    const Corners corners(s, rows, columns);
-    for (std::size_t n = 0; n < slices.slice.size(); ++n) {
-      if (slices.weight[n] == 0) continue;
-      const float* low = values_.data() + (slices.slice[n] * rows * columns + corners.low) * channel_count;
-      const float* high = low + columns * channel_count;
-      const double scaled = factor * slices.weight[n];
-      const double w00 = scaled * corners.weight[0], w01 = scaled * corners.weight[1];
-      const double w10 = scaled * corners.weight[2], w11 = scaled * corners.weight[3];
-      for (std::size_t c = 0; c < channel_count; ++c)
-        out[c] += w00 * static_cast<double>(low[c]) + w01 * static_cast<double>(low[channel_count + c]) +
-                  w10 * static_cast<double>(high[c]) + w11 * static_cast<double>(high[channel_count + c]);
+  const bool isotropic = is_isotropic(arrays_.phi_i);
+  find_coordinates(pairs, isotropic);
+  // In steps over all pairs, so that the memory one pair waits for comes while others are worked on.
+  std::array<SliceWeights, RglPairs::most> slices;
+  for (std::size_t k = 0; k < pairs.count; ++k) {
+    const double azimuth = 2 * pi * pairs.turn_i[k];
+    slices[k] = slices_at(pairs.theta_i[k], isotropic ? azimuth : from(static_cast<double>(arrays_.phi_i.front()), azimuth));
+    vndf_.prefetch(slices[k], {pairs.half_x[k], pairs.half_y[k]});
+  }
+  const auto between = [&](const std::vector<float>& values, UnitPoint at) {
+    const Corners around(at, arrays_.angle_rows, arrays_.angle_columns);
+    const float *low = values.data() + around.low, *high = low + arrays_.angle_columns;
+    return around.weight[0] * static_cast<double>(low[0]) + around.weight[1] * static_cast<double>(low[1]) +
+           around.weight[2] * static_cast<double>(high[0]) + around.weight[3] * static_cast<double>(high[1]);
+  };
+  std::array<Corners, RglPairs::most> corners;
+  for (std::size_t k = 0; k < pairs.count; ++k) {
+    const UnitPoint s = vndf_.invert(slices[k], {pairs.half_x[k], pairs.half_y[k]});
+    corners[k] = Corners(s, rows, columns);
+    for (std::size_t n = 0; n < slices[k].slice.size(); ++n) {
+      if (slices[k].weight[n] == 0) continue;
+      const float* low = values_.data() + (slices[k].slice[n] * rows * columns + corners[k].low) * channel_count;
+      __builtin_prefetch(low);
+      __builtin_prefetch(low + columns * channel_count);
     }
   }
+  for (std::size_t k = 0; k < pairs.count; ++k) {
+    const UnitPoint m{pairs.half_x[k], pairs.half_y[k]}, i{pairs.incident_x[k], wrapped(pairs.turn_i[k] + 0.5)};
+    const double factor = between(arrays_.ndf, m) / (4 * between(arrays_.sigma, i) * pairs.oz[k]);
+    double* const out = place(k);
+    for (std::size_t n = 0; n < slices[k].slice.size(); ++n) {
+      if (slices[k].weight[n] == 0) continue;
+      const float* low = values_.data() + (slices[k].slice[n] * rows * columns + corners[k].low) * channel_count;
+      const float* high = low + columns * channel_count;
+      const double scaled = factor * slices[k].weight[n];
+      const double w00 = scaled * corners[k].weight[0], w01 = scaled * corners[k].weight[1];
+      const double w10 = scaled * corners[k].weight[2], w11 = scaled * corners[k].weight[3];
+      const auto add = [&](auto count) {
+        for (std::size_t c = 0; c < count; ++c)
+          out[c] += w00 * static_cast<double>(low[c]) + w01 * static_cast<double>(low[count + c]) + w10 * static_cast<double>(high[c]) +
+                    w11 * static_cast<double>(high[count + c]);
+      };
+      if (channel_count == 3)
+        add(std::integral_constant<std::size_t, 3>{});  // a loop that the compiler unrolls
+      else
+        add(channel_count);
+    }
+  }
+}
+
+void RglTable::eval(std::span<const Direction> wi, std::span<const Direction> wo, std::span<double> f) const {
+  const double first = static_cast<double>(arrays_.phi_i.front()), last = static_cast<double>(arrays_.phi_i.back());
+  const std::size_t channel_count = arrays_.channels.size();
+  RglPairs pairs;
+  std::array<std::size_t, RglPairs::most> places;
+  const auto flush = [&] {
+    look_up(pairs, [&](std::size_t k) { return f.data() + places[k] * channel_count; });
+    pairs.count = 0;
+  };
+  for (std::size_t k = 0; k < wi.size(); ++k) {
+    std::fill_n(f.data() + k * channel_count, channel_count, 0.0);
+    if (!(wi[k].z() > 0) || !(wo[k].z() > 0)) continue;
+    const auto [i, o] = turns_ == 1 ? DirectionPair{wi[k], wo[k]} : folded(wi[k], wo[k], turns_, first, last);
+    const std::size_t n = pairs.count++;
+    places[n] = k;
+    pairs.ix[n] = i.x(), pairs.iy[n] = i.y(), pairs.iz[n] = i.z();
+    pairs.ox[n] = o.x(), pairs.oy[n] = o.y(), pairs.oz[n] = o.z();
+    if (pairs.count == RglPairs::most) flush();
+  }
+  if (pairs.count > 0) flush();
 }
 
 Dataset RglTable::samples() const {

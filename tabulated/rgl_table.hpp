@@ -8,7 +8,9 @@
 
 #include "brdf/brdf.hpp"
 #include "brdf/dataset.hpp"
+#include "tabulated/large_array.hpp"
 #include "tabulated/marginal_warp.hpp"
+#include "tabulated/rgl_coordinates.hpp"
 
 namespace gonio::tabulated {
 
@@ -59,12 +61,15 @@ class RglTable final : public Brdf {
   Dataset samples() const;
 
  private:
+  /// Adds the values of every pair to the channels at `place(k)`.
+  template <class Place>
+  void look_up(RglPairs& pairs, Place&& place) const;
   SliceWeights slices_at(double theta_i, double phi_i) const noexcept;
   UnitPoint unit_point(double theta, double phi) const noexcept;
 
   RglArrays arrays_;  ///< but for vndf and values
   MarginalWarp vndf_;
-  std::vector<float> values_;  ///< [P, T, row, column, channel]: the channels of a node together
+  LargeArray<float> values_;  ///< [P, T, row, column, channel]: the channels of a node together
   int turns_;
 };
 
