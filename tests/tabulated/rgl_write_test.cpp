@@ -310,3 +310,21 @@ TEST_CASE("A wanted error chooses the smallest grid that keeps it and names the 
   CHECK(fact(file.notes, "errors by grid").find("8 x 32 x 32: ") == 0);
   CHECK(fact(file.notes, "errors by grid").find("32 x 64 x 64") == std::string::npos);
 }
+
+TEST_CASE("A written file that breaks off anywhere in its table of fields, or at the end of any field, is refused") {
+  const test::TemporaryFolder folder;
+  write_rgl_rgb(ggx(0.3), folder / "m.bsdf", of_size(GridSize::paper));
+  const std::string bytes = test::read_file(folder / "m.bsdf");
+  FaultList none("m.bsdf");
+  std::vector<std::size_t> ends;
+  for (const Tensor& tensor : read_tensors(std::as_bytes(std::span(bytes)), none))
+    ends.push_back(static_cast<std::size_t>(tensor.bytes.data() - reinterpret_cast<const std::byte*>(bytes.data())));
+  for (std::size_t k = tensor_file_signature.size(); k < ends.front(); ++k) ends.push_back(k);
+  ends.push_back(bytes.size() - 1);
+  ReadOptions options;
+  options.format = "rgl";
+  for (const std::size_t end : ends) {
+    INFO("cut at byte " << end);
+    CHECK(test::faults_of([&] { open_brdf(folder.file("cut.bsdf", bytes.substr(0, end)), options); }).starts_with("input|"));
+  }
+}
