@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "tabulated/polar_integral.hpp"
 #include "tests/shared_data.hpp"
 #include "tests/tabulated/damaged_text.hpp"
 #include "tests/tabulated/faults_text.hpp"
@@ -143,6 +144,30 @@ TEST_CASE("The black coating on the RT-300S gives its reference figures without 
   CHECK(std::fabs(mean(10, 50) / mean(50, 10) - 0.915) < 5e-4);
   CHECK(std::fabs(mean(30, 50) / mean(50, 30) - 0.947) < 5e-4);
   CHECK(std::fabs(mean(50, 70) / mean(70, 50) - 0.900) < 5e-4);
+  // The integral of f cos theta_o up to 80 degrees, directions of both sides averaged.
+  for (const auto& [incidence, reference] : std::map<int, double>{{10, 0.0508}, {30, 0.0518}, {50, 0.0556}, {70, 0.0850}}) {
+    std::map<std::pair<int, int>, std::pair<double, int>> nodes;
+    for (std::size_t k = 0; k < data.size(); ++k) {
+      const GonioAngles& a = data.angles[k];
+      if (std::lround(a.theta_i.degrees()) != incidence) continue;
+      const int turn = static_cast<int>(std::lround(a.phi_o.degrees() - a.phi_i.degrees()));
+      auto& [sum, count] = nodes[{static_cast<int>(std::lround(a.theta_o.degrees())), ((turn % 360) + 360) % 360}];
+      sum += data.f[0][k], ++count;
+    }
+    std::vector<double> theta, phi, f;
+    for (int t = 0; t <= 80; t += 5) theta.push_back(t);
+    for (int p = 0; p < 360; p += 10) phi.push_back(p);
+    for (const double t : theta)
+      for (const double p : phi) {
+        if (t == 0) {
+          f.push_back(0);  // the normal has no solid angle
+          continue;
+        }
+        const auto& [sum, count] = nodes.at({static_cast<int>(t), static_cast<int>(p)});
+        f.push_back(sum / count);
+      }
+    CHECK(std::fabs(polar_integral(theta, phi, f) / reference - 1) < 0.03);
+  }
   const Dataset masked = rt300s(path.filename().string(), false);
   CHECK(masked.masked.blocked > 0);
   CHECK(masked.size() + masked.masked.blocked == 2508);
