@@ -7,8 +7,8 @@
 
 #include "brdf/brdf.hpp"
 #include "brdf/dataset.hpp"
+#include "tabulated/formats/sheet_side.hpp"
 #include "tabulated/klems_basis.hpp"
-#include "tabulated/sheet_side.hpp"
 
 namespace gonio::tabulated {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "brdf/error.hpp"
-#include "tabulated/angle_list.hpp"
+#include "tabulated/formats/angle_list.hpp"
 
 namespace gonio::tabulated {
 

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tabulated/scattering_text.hpp"
+#include "tabulated/formats/scattering_text.hpp"
 
 namespace gonio::tabulated {
 

@@ -7,7 +7,7 @@
 #include "brdf/brdf.hpp"
 #include "brdf/coordinates.hpp"
 #include "brdf/dataset.hpp"
-#include "tabulated/sheet_side.hpp"
+#include "tabulated/formats/sheet_side.hpp"
 #include "tabulated/tensor_tree.hpp"
 
 namespace gonio::tabulated {

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "brdf/error.hpp"
-#include "tabulated/csv_text.hpp"
+#include "tabulated/formats/csv_text.hpp"
 #include "tabulated/lattice_table.hpp"
 #include "tabulated/node_values.hpp"
 #include "tabulated/opened_samples.hpp"

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "tabulated/brdf_exr_channels.hpp"
-#include "tabulated/exr_image.hpp"
+#include "tabulated/formats/brdf_exr_channels.hpp"
+#include "tabulated/formats/exr_image.hpp"
 #include "tools/gnuplot.hpp"
 
 namespace gonio::tools {

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "fitting/joint_observations.hpp"
-#include "tabulated/merl.hpp"
+#include "tabulated/formats/merl.hpp"
 
 namespace gonio::tools {
 namespace {

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "brdf/analytic_brdf.hpp"
-#include "tabulated/rgl.hpp"
+#include "tabulated/formats/rgl.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace gonio;

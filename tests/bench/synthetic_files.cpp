@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "brdf/channels.hpp"
-#include "tabulated/merl.hpp"
+#include "tabulated/formats/merl.hpp"
 #include "tabulated/merl_grid.hpp"
 
 namespace gonio::bench {

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "tabulated/csv.hpp"
+#include "tabulated/formats/csv.hpp"
 #include "tests/command.hpp"
 #include "tests/shared_data.hpp"
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "fitting/fit.hpp"
-#include "tabulated/csv.hpp"
+#include "tabulated/formats/csv.hpp"
 #include "tests/fitting/ngan_grid.hpp"
 #include "tests/fitting/theta_h_table.hpp"
 #include "tests/temporary_folder.hpp"

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "brdf/error.hpp"
-#include "tabulated/merl.hpp"
+#include "tabulated/formats/merl.hpp"
 #include "tabulated/open.hpp"
 
 namespace {

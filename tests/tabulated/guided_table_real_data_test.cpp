@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-#include "tabulated/csv.hpp"
+#include "tabulated/formats/csv.hpp"
 #include "tabulated/guided_table.hpp"
 #include "tests/shared_data.hpp"
 #include "tests/tabulated/measured_model.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tabulated/rgl.hpp"
+#include "tabulated/formats/rgl.hpp"
 #include "tests/tabulated/tensor_writer.hpp"
 #include "tests/temporary_folder.hpp"
 
