@@ -55,13 +55,30 @@ class MemoryFile {
   int descriptor_;
 };
 
-/// Answers to everything a reader may ask, so that the fuzzer gets past the questions.
+/// Answers to what a reader may ask, so that the fuzzer gets past the questions; every fourth file goes without.
 void assume_something(ReadOptions& options, std::uint8_t which) {
   static const std::vector<std::pair<std::string, std::vector<std::string>>> answers{
-      {"quantity", {"f", "f_cos"}},
-      {"side", {"front", "back"}},
-      {"symmetry", {"isotropic", "none"}},
+      {"blocked", {"mask", "keep"}},
+      {"coverage_factor", {"1", "2"}},
+      {"data_type", {"brdf", "btdf"}},
+      {"isotropic", {"no", "yes"}},
+      {"kind", {"reflection", "transmission"}},
+      {"nodes", {"centre", "left"}},
+      {"part", {"reflection", "transmission"}},
+      {"phi_d_deg", {"90", "0"}},
+      {"rotation", {"0", "45"}},
+      {"scale", {"1", "0.01"}},
+      {"scatter", {"brdf", "btdf"}},
+      {"side", {"front", "back", "reflection", "transmission"}},
+      {"specular", {"0", "pi"}},
+      {"specular_azimuth_deg", {"0", "180"}},
+      {"theta_d_deg", {"0", "30"}},
+      {"values", {"f", "display"}},
+      {"wavelength_nm", {"550", "650"}},
+      {"white", {"1", "0.98"}},
+      {"zero_azimuth", {"across", "along"}},
   };
+  if (which % 4 == 3) return;
   for (const auto& [key, values] : answers)
     for (const char* known : fuzzed->assumptions)
       if (key == known) options.assume[key] = values[which % values.size()];
