@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Text with a few random edits, for the readers of text files.
+// Text with a few random edits, for the readers of text files, and the law that holds for every one of them.
 #pragma once
 
+#include <cstdio>
 #include <random>
+#include <stdexcept>
 #include <string>
+#include <vector>
+
+#include "brdf/error.hpp"
 
 namespace gonio::test {
 
@@ -21,6 +26,35 @@ inline std::string damaged(std::string text, const std::string& letters, std::mt
     }
   }
   return text;
+}
+
+struct DamagedFiles {
+  int read = 0, refused = 0;
+};
+
+/// Hands `rounds` damaged copies of the originals, in turn, to `read`, which may return or throw an Error of kind input with its faults.
+/// Anything else fails the test: the round and the seed go to standard error, and the exception on.
+template <class Read>
+DamagedFiles read_damaged(const std::vector<std::string>& originals, const std::string& letters, unsigned random_seed, int rounds,
+                          Read read) {
+  std::mt19937 random(random_seed);
+  DamagedFiles out;
+  for (int round = 0; round < rounds; ++round) {
+    const std::string bytes = damaged(originals[static_cast<std::size_t>(round) % originals.size()], letters, random);
+    try {
+      try {
+        read(bytes);
+        ++out.read;
+      } catch (const Error& error) {
+        if (error.kind() != ErrorKind::input || error.faults().empty()) throw std::runtime_error(error.what());
+        ++out.refused;
+      }
+    } catch (...) {
+      std::fprintf(stderr, "damaged file: round %d of seed %u\n", round, random_seed);
+      throw;
+    }
+  }
+  return out;
 }
 
 }  // namespace gonio::test

@@ -127,22 +127,12 @@ TEST_CASE("An anisotropic source and one of several unknown channels are refused
 TEST_CASE("No damaged look-up table does more than raise an error") {
   const test::TemporaryFolder scratch;
   const std::string seed = with("[5.5e-7, 0.5, 0.25, 0, 0.1], [5.5e-7, 0.5, 0.25, 3.1, 0.2], [6e-7, 0.5, 0.25, 0, null]");
-  std::mt19937 random(20260707);
   const std::string letters = std::string("0123456789.-+eE\"{}[]:, \nnull") + std::string("\0\xff", 2);
-  int read = 0, refused = 0;
-  for (int round = 0; round < 1500; ++round) {
-    const std::string text = test::damaged(seed, letters, random);
-    INFO("round " << round << " of seed 20260707");
-    try {
-      const Opened opened = open_openmaterial(scratch.file("damaged.json", text), {});
-      opened.dataset->require_consistent();
-      REQUIRE(opened.dataset->size() > 0);
-      ++read;
-    } catch (const Error& error) {
-      REQUIRE(error.kind() == ErrorKind::input);
-      ++refused;
-    }
-  }
+  const auto [read, refused] = test::read_damaged({seed}, letters, 20260707, 1500, [&](const std::string& text) {
+    const Opened opened = open_openmaterial(scratch.file("damaged.json", text), {});
+    opened.dataset->require_consistent();
+    REQUIRE(opened.dataset->size() > 0);
+  });
   CHECK(read > 15);
   CHECK(refused > 500);
 }

@@ -89,20 +89,13 @@ TEST_CASE("Faults of a pab file are named with their lines") {
 }
 
 TEST_CASE("No damaged pab file does more than raise an error") {
-  std::mt19937 random(20260803);
   const test::TemporaryFolder folder;
   ReadOptions options;
   options.format = "pab";
-  for (int round = 0; round < 4000; ++round) {
-    const auto path = folder.file("m", test::damaged(good, "0123456789.,-+e# \nnaif\"", random));
-    INFO("round " << round << " of seed 20260803");
-    try {
-      open_brdf(path, options);
-    } catch (const Error& error) {
-      REQUIRE(error.kind() == ErrorKind::input);
-    }
-  }
-  SUCCEED();
+  const auto [read, refused] = test::read_damaged({good}, "0123456789.,-+e# \nnaif\"", 20260803, 4000,
+                                                  [&](const std::string& bytes) { open_brdf(folder.file("m", bytes), options); });
+  CHECK(read > 200);
+  CHECK(refused > 500);
 }
 
 TEST_CASE("Written files hold one incidence each and read back to the same samples") {

@@ -182,23 +182,13 @@ TEST_CASE("No damaged .ssdd does more than raise an error") {
       "VERSION 0.3\nDATA_TYPE brdf\nCOLOR_MODEL rgb\nPARAM_TYPE half_difference_coordinate_system\nREDUCTION_TYPE bilateral_symmetry "
       "reciprocity\nPARAM0_LIST 0 45\nPARAM2_LIST 0 45\nPARAM3_LIST 0 90\nDATA binary\n" +
       std::string(96, '\x3e');
-  const std::string seeds[] = {lambert + mirror, half_difference};
-  std::mt19937 random(20260709);
+  const std::vector<std::string> seeds{lambert + mirror, half_difference};
   const std::string letters = std::string("0123456789.-+eE# \nLISTPARAM_DATA") + std::string("\0\xff", 2);
-  int read = 0, refused = 0;
-  for (int round = 0; round < 3000; ++round) {
-    const std::string bytes = test::damaged(seeds[round % 2], letters, random);
-    INFO("round " << round << " of seed 20260709");
-    try {
-      const Opened opened = open_ssdd(scratch.file("damaged", bytes), {});
-      opened.dataset->require_consistent();
-      REQUIRE(opened.dataset->size() > 0);
-      ++read;
-    } catch (const Error& error) {
-      REQUIRE(error.kind() == ErrorKind::input);
-      ++refused;
-    }
-  }
+  const auto [read, refused] = test::read_damaged(seeds, letters, 20260709, 3000, [&](const std::string& bytes) {
+    const Opened opened = open_ssdd(scratch.file("damaged", bytes), {});
+    opened.dataset->require_consistent();
+    REQUIRE(opened.dataset->size() > 0);
+  });
   CHECK(read > 100);
   CHECK(refused > 500);
 }
