@@ -12,6 +12,11 @@
 
 namespace gonio::test {
 
+/// The first `what`, which must be there, as `by`.
+inline std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);  // npos throws
+}
+
 /// One to three edits: a letter changed, put in, a few taken out, the rest cut off, or a piece of the text repeated elsewhere.
 inline std::string damaged(std::string text, const std::string& letters, std::mt19937& random) {
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };

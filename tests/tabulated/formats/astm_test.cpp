@@ -14,6 +14,7 @@
 
 using namespace gonio;
 using namespace gonio::tabulated;
+using gonio::test::replaced;
 using gonio::test::faults_of;
 using gonio::test::TemporaryFolder;
 
@@ -21,10 +22,6 @@ namespace {
 
 const std::string small =
     "A sample\nNUM_POINTS 2\nVARS theta_i,phi_i,theta_s,phi_s,R,G,B\n0.5,0,0.25,3,0.1,0.2,0.3\n0.5,0,-0.25,3,0.4,0.5,0.6\n";
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
-}
 
 Dataset read(const std::string& text, const std::string& specular = "pi") {
   const TemporaryFolder scratch;

@@ -13,6 +13,7 @@
 
 using namespace gonio;
 using namespace gonio::tabulated;
+using gonio::test::replaced;
 using gonio::test::faults_of;
 using gonio::test::TemporaryFolder;
 
@@ -22,10 +23,6 @@ const std::string small =
     "# A paint\n\n# num wls\n2\n\n# wls\n400\n500\n\n# theta i, phi i, theta s, phi_s, spectral sample values\n\n0.5 0 0.25 3.141593 0.1 "
     "0.2\n0.5 0 0.25 0 "
     "0.3 0.4\n";
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
-}
 
 Dataset read(const std::string& text) {
   const TemporaryFolder scratch;

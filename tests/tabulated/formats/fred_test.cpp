@@ -14,6 +14,7 @@
 
 using namespace gonio;
 using namespace gonio::tabulated;
+using gonio::test::replaced;
 using gonio::test::faults_of;
 using gonio::test::TemporaryFolder;
 
@@ -21,10 +22,6 @@ namespace {
 
 const std::string in_plane =
     "type bsdf_data\nformat angles=deg bsdf=value scale=2\n0 0\n-30 0 0.5\n0 0 1\n30 0 0.5\n15 0\n-20\t0\t0.25\n15,0,4\n";
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
-}
 
 Dataset read(const std::string& text, const ReadOptions& options = {}) {
   const TemporaryFolder scratch;

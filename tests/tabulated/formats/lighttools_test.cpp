@@ -13,6 +13,7 @@
 
 using namespace gonio;
 using namespace gonio::tabulated;
+using gonio::test::replaced;
 using gonio::test::faults_of;
 using gonio::test::TemporaryFolder;
 
@@ -21,10 +22,6 @@ namespace {
 const std::string header =
     "Symmetry\tAsymmetric\nSpectralContent\tMonochrome\nScatterAzimuth\t3\n0\t90\t270\nScatterRadial\t2\n0\t40\n\nDataBegin\n";
 const std::string block = "AOI\t30\nPOI\t0\nSide\tFront\nWavelength\t550\nScatterType\tBRDF\nTIS\t0.1\n1\t2\n1\t3\n1\t4\n";
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
-}
 
 Dataset read(const std::string& text, const ReadOptions& options = {}) {
   const TemporaryFolder scratch;

@@ -16,6 +16,7 @@
 
 using namespace gonio;
 using namespace gonio::tabulated;
+using gonio::test::replaced;
 using gonio::test::faults_of;
 using gonio::test::TemporaryFolder;
 
@@ -28,10 +29,6 @@ const std::string anisotropic =
     "OPTIS - Anisotropic BSDF surface file v8.0\n0\nComment\n4\ntext\n0\t1\t0\n0\t1\n0\n2\n0 90\n1\n15\n1\n15\n15.0\t0\nTransmission "
     "spectrum\n2\n350\t13\n850\t14\n"
     "2 2\n\t0\t180\n120\t1\t2\n180\t3\t3\n2 2\n\t0\t180\n120\t1\t2\n180\t3\t3\nEnd of file\n";
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
-}
 
 Dataset read(const std::string& text, const std::string& key = "scale", const std::string& answer = "stored") {
   const TemporaryFolder scratch;

@@ -13,6 +13,7 @@
 
 using namespace gonio;
 using namespace gonio::tabulated;
+using gonio::test::replaced;
 using gonio::test::faults_of;
 using gonio::test::TemporaryFolder;
 
@@ -23,10 +24,6 @@ const std::string small =
     "Data\nDescription\n\nTable_BSDF_Data\nTemperature\tWavelength\tIncAngle\tAziAngle\tScatterBeta\tScatterAzimuth\tBRDF\tBTDF\n"
     "300\t0.55\t30\t0\t0\t0\t5\t0\t\n300\t0.55\t30\t0\t0\t90\t5\t0\t\n300\t0.55\t30\t0\t0.25\t0\t1\t0\t\n300\t0.55\t30\t0\t0."
     "25\t90\t2\t0\t\n300\t0.55\t30\t0\t0.75\t90\t0\t0\t\n";
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
-}
 
 Dataset read(const std::string& text, const std::string& zero = "across") {
   const TemporaryFolder scratch;

@@ -18,6 +18,7 @@
 
 using namespace gonio;
 using namespace gonio::tabulated;
+using gonio::test::replaced;
 using gonio::test::faults_of;
 using gonio::test::read_file;
 using gonio::test::source_of_model;
@@ -34,10 +35,6 @@ const std::string small =
 Opened open(const std::string& text, const ReadOptions& options = {}) {
   const TemporaryFolder scratch;
   return open_brdf(scratch.file("file.bsdf", text), options);
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  return text.replace(text.find(what), what.size(), by);
 }
 
 double at(const Brdf& brdf, double theta_i, double theta_o, double phi_o) {
