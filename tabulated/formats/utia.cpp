@@ -22,7 +22,7 @@ static_assert(std::endian::native == std::endian::little, "the numbers of the fo
 
 constexpr std::size_t zenith_count = 6, azimuth_count = 48, planes = 3;
 constexpr std::size_t plane_size = zenith_count * azimuth_count * zenith_count * azimuth_count;
-constexpr std::size_t file_size = planes * plane_size * sizeof(double);
+static_assert(utia_file_size == planes * plane_size * sizeof(double));
 
 Lattice lattice() {
   Lattice out;
@@ -56,7 +56,7 @@ ExportNotes write(bool display, const Opened& source, const std::filesystem::pat
   const Lattice grid = lattice();
   const ChannelMap map = map_to_rgb(source.brdf ? source.brdf->channels() : Channels{});
   const std::vector<std::vector<double>> values = lattice_values(source, grid, map, options.threads, notes);
-  std::string bytes(file_size, '\0');
+  std::string bytes(utia_file_size, '\0');
   for (std::size_t c = 0; c < planes; ++c)
     for (std::size_t node = 0; node < grid.size(); ++node) {
       const double f = std::isnan(values[c][node]) ? 0 : values[c][node];
@@ -77,7 +77,7 @@ ExportNotes write(bool display, const Opened& source, const std::filesystem::pat
 }  // namespace
 
 bool recognises_utia(std::string_view head, std::uintmax_t size) {
-  if (size != file_size) return false;
+  if (size != utia_file_size) return false;
   constexpr double least = 1e-9, most = 1e6;
   for (std::size_t byte = 0; byte + sizeof(double) <= head.size(); byte += sizeof(double)) {
     double value = 0;
@@ -92,8 +92,8 @@ Opened open_utia(const std::filesystem::path& path, const ReadOptions& options) 
   if (answer && *answer != "f" && *answer != "display") throw Error(ErrorKind::usage, {"--assume values", *answer, "f or display"});
   const std::string bytes = read_file(path);
   FaultList faults(path.string());
-  if (bytes.size() != file_size)
-    faults.add(path.string(), fmt::format("{} bytes", bytes.size()), fmt::format("{}: 3 x 288 x 288 numbers", file_size));
+  if (bytes.size() != utia_file_size)
+    faults.add(path.string(), fmt::format("{} bytes", bytes.size()), fmt::format("{}: 3 x 288 x 288 numbers", utia_file_size));
   faults.raise();
   if (!answer)
     faults.add(path.string(), "numbers of which the file does not say what they are",

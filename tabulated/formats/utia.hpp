@@ -10,6 +10,9 @@
 
 namespace gonio::tabulated {
 
+/// Bytes of a file: three planes of 288 x 288 numbers in double precision.
+inline constexpr std::uintmax_t utia_file_size = 3 * 288 * 288 * sizeof(double);
+
 /// J. Filip and R. Vávra, "Template-Based Sampling of Anisotropic BRDFs", Computer Graphics Forum 33(7), 2014: anisotropic, 1 990 656 bytes
 /// without a header, little-endian float64 [r, g, b][theta_i, phi_i][theta_o, phi_o], zenith angles 0 to 75° by 15°, azimuths by 7.5°.
 ///

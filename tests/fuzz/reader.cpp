@@ -18,6 +18,7 @@
 
 #include "brdf/error.hpp"
 #include "tabulated/formats/merl.hpp"
+#include "tabulated/formats/utia.hpp"
 #include "tabulated/open.hpp"
 
 namespace {
@@ -42,8 +43,10 @@ class MemoryFile {
       if (n <= 0) broken("a file in memory can be written");
       done += static_cast<std::size_t>(n);
     }
-    // MERL's reader looks at nothing but files of one size: the rest is zeros.
-    if (std::string_view(fuzzed->name) == "merl" && ftruncate(descriptor_, merl_file_size) != 0) broken("a file in memory can grow");
+    // Some readers look at nothing but files of one size: the rest is zeros.
+    const std::string_view format = fuzzed->name;
+    const std::uintmax_t only_size = format == "merl" ? merl_file_size : format == "utia" ? utia_file_size : size;
+    if (only_size != size && ftruncate(descriptor_, static_cast<off_t>(only_size)) != 0) broken("a file in memory can grow");
   }
   ~MemoryFile() { close(descriptor_); }
   MemoryFile(const MemoryFile&) = delete;
@@ -66,22 +69,23 @@ void assume_something(ReadOptions& options, std::uint8_t which) {
       {"nodes", {"centre", "left"}},
       {"part", {"reflection", "transmission"}},
       {"phi_d_deg", {"90", "0"}},
-      {"rotation", {"0", "45"}},
-      {"scale", {"1", "0.01"}},
-      {"scatter", {"brdf", "btdf"}},
+      {"rotation", {"counter-clockwise", "clockwise"}},
+      {"scale", {"stored", "percentage"}},
+      {"scatter", {"BRDF", "BTDF"}},
       {"side", {"front", "back", "reflection", "transmission"}},
       {"specular", {"0", "pi"}},
       {"specular_azimuth_deg", {"0", "180"}},
       {"theta_d_deg", {"0", "30"}},
       {"values", {"f", "display"}},
+      {"wavelength", {"Visible", "CIE-Y"}},
       {"wavelength_nm", {"550", "650"}},
       {"white", {"1", "0.98"}},
-      {"zero_azimuth", {"across", "along"}},
+      {"zero_azimuth", {"across", "fixed"}},
   };
   if (which % 4 == 3) return;
   for (const auto& [key, values] : answers)
     for (const char* known : fuzzed->assumptions)
-      if (key == known) options.assume[key] = values[which % values.size()];
+      if (key == known) options.assume[key] = values[which / 4 % values.size()];
 }
 
 void use(const Opened& opened) {

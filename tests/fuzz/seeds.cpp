@@ -3,6 +3,7 @@
 // recognises the file looks for it; `fuzz_reader` starts from them. For formats that are only read, the fewest lines that make a file.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -21,8 +22,10 @@ using namespace gonio::tabulated;
 
 namespace {
 
-/// A seed larger than this only slows the fuzzer down; its start still shows the reader's way in.
+/// The largest input that tools/fuzz makes. What is larger cannot be a seed, for its start alone is no file; only the formats of one
+/// size, which the fuzzer fills up with zeros, are cut.
 constexpr std::uintmax_t largest_seed = 1 << 16;
+constexpr const char* of_one_size[] = {"merl", "utia"};
 
 Dataset few_samples(Channels channels, bool in_plane) {
   Dataset out;
@@ -81,10 +84,12 @@ Opened small_rgl(Channels channels) {
   return out;
 }
 
-Opened white() {
+Opened matt(Channels channels) {
+  std::vector<std::vector<double>> albedo;
+  while (albedo.size() < channels.size()) albedo.push_back({0.5 - 0.1 * static_cast<double>(albedo.size())});
   Opened out;
   out.format = "model";
-  out.brdf = std::make_shared<const AnalyticBrdf>("lambert", single_channel("value"), std::vector<std::vector<double>>{{0.5}});
+  out.brdf = std::make_shared<const AnalyticBrdf>("lambert", std::move(channels), std::move(albedo));
   return out;
 }
 
@@ -108,8 +113,30 @@ const std::vector<std::pair<const char*, std::string>>& by_hand() {
       {"nist", "lambda,thetai,phi,thetar,phir,f_r11,f_r12/f_r11\n0.351,-30,0,30,0,2.5E-01,0.01\n0.532,-30,0,30,0,3.5E-01,0.01\n"},
       {"rt300s", "sheet,azimuth_deg,incidence_deg,receive_deg,RT\nA,-90.0,30.0,60.0,0.5\nA,0.0,30.0,-30.0,0.2\n"},
       {"alta", "#DIM 4 1\n#PARAM_IN SPHERICAL_TL_PL_TV_PV\n#PARAM_OUT INV_STERADIAN\n0.1 0 0.2 3 0.5\n0.3 0 0.2 1 0.4\n"},
+      {"lighttools",
+       "Symmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterAzimuth 3\n0 90 180\nScatterRadial 2\n0 60\nDataBegin\n"
+       "AOI 0\nPOI 0\nSide Front\nWavelength 550\nScatterType BRDF\nTIS 0.5\n0.1 0.1\n0.1 0.1\n0.1 0.1\n"
+       "AOI 40\nPOI 0\nSide Front\nWavelength 550\nScatterType BRDF\nTIS 0.5\n0.1 0.2\n0.1 0.1\n0.1 0.1\nDataEnd\n"},
+      {"lighttools",
+       "Symmetry Asymmetric\nSpectralContent XYZ\nScatterAzimuth 2\n0 180\nScatterRadial 2\n0 60\nDataBegin\n"
+       "AOI 180\nPOI 0\nSide Back\nScatterType BTDF\nTristimulusValue TrisX\nTIS 0.5\n0.1 0.1\n0.1 0.1\n"
+       "AOI 180\nPOI 0\nSide Back\nScatterType BTDF\nTristimulusValue TrisY\nTIS 0.5\n0.1 0.1\n0.1 0.1\n"
+       "AOI 180\nPOI 0\nSide Back\nScatterType BTDF\nTristimulusValue TrisZ\nTIS 0.5\n0.1 0.1\n0.1 0.1\nDataEnd\n"},
+      {"tracepro",
+       "TracePro Surface Property Data\nDescription\tzero azimuth of scatter across the plane of incidence\nTable_BSDF_Data\n"
+       "Temperature\tWavelength\tIncAngle\tAziAngle\tScatterBeta\tScatterAzimuth\tBRDF\tBTDF\n"
+       "300\t0.55\t0\t0\t0\t0\t0.1\t0\n300\t0.55\t0\t0\t0.5\t0\t0.1\t0\n300\t0.55\t0\t0\t0.5\t120\t0.1\t0.2\n"
+       "300\t0.55\t30\t0\t0\t0\t0.2\t0\n300\t0.55\t30\t0\t0.4\t0\t0.1\t0\n300\t0.55\t30\t0\t0.4\t120\t0.1\t0.1\n"},
+      {"tracepro",
+       "TracePro Surface Property Data\nTable_BSDF_Data\nTemperature Wavelength IncAngle AziAngle ScatterBeta ScatterAzimuth BRDF BTDF\n"
+       "300 0.55 0 0 0 0 0.1 0\n300 0.55 0 0 0.5 0 0.1 0\n300 0.65 0 0 0 0 0.2 0\n300 0.65 0 0 0.5 0 0.1 0\nSAVE-DATA\n"},
       {"speos",
-       "OPTIS - Anisotropic BSDF surface file v8.0\n0\ncomment\n0\n\n1\t0\n1\n1\n0\n2\n0 30\n50\n2\t2\n\t0\t180\n0\t0.1\t0.1\n90\t0\t0\n"},
+       "OPTIS - brdf surface file v9.0\n0\nmatt\n0\n\n1\t1\n1\n2\t1\n0\t40\n550\n31\n2\t3\n\t0\t180\t360\n0\t0.1\t0.1\t0.1\n"
+       "90\t0.1\t0.1\t0.1\n31\n2\t3\n\t0\t180\t360\n0\t0.1\t0.1\t0.1\n90\t0.1\t0.1\t0.1\n31\n2\t3\n\t0\t180\t360\n"
+       "90\t0.1\t0.1\t0.1\n180\t0.1\t0.1\t0.1\n31\n2\t3\n\t0\t180\t360\n90\t0.1\t0.1\t0.1\n180\t0.1\t0.1\t0.1\n"},
+      {"speos",
+       "OPTIS - Anisotropic BSDF surface file v8.0\n0\ncomment\n0\n\n1 0 0\n1\t0\n1\n1\n0\n2\n0 30\n0 0\nspectrum\n1\n550 50\n"
+       "2\t3\n\t0\t180\t360\n0\t0.1\t0.1\t0.1\n90\t0\t0\t0\n2\t3\n\t0\t180\t360\n0\t0.1\t0.1\t0.1\n90\t0\t0\t0\n"},
   };
   return files;
 }
@@ -118,7 +145,8 @@ const std::vector<std::pair<const char*, std::string>>& by_hand() {
 bool suits(const Format& format, const char* source) {
   const std::string_view name = format.name, from = source;
   for (const char* large : {"radiance-", "merl", "utia", "exr-", "mbsdf", "ssdd", "rgl", "lighttools", "zemax", "speos", "tracepro"})
-    if (name.starts_with(large)) return from == "white" || from == "rgb-model" || (name.starts_with("rgl") && from.ends_with("rgl"));
+    if (name.starts_with(large))
+      return from.ends_with("white") || from == "rgb-model" || (name.starts_with("rgl") && from.ends_with("rgl"));
   return true;
 }
 
@@ -129,9 +157,11 @@ void hand_to_reader(const fs::path& file, const fs::path& corpus) {
   head.resize(std::min<std::size_t>(head.size(), 4096));
   for (const Format& format : formats())
     if (format.recognises && format.recognises(head, size)) {
+      const bool cut = std::find(std::begin(of_one_size), std::end(of_one_size), std::string_view(format.name)) != std::end(of_one_size);
+      if (size > largest_seed && !cut) break;
+      if (size > largest_seed) fs::resize_file(file, largest_seed);
       const fs::path folder = corpus / format.name;
       fs::create_directories(folder);
-      if (size > largest_seed) fs::resize_file(file, largest_seed);
       fs::rename(file, folder / file.filename());
       return;
     }
@@ -154,7 +184,8 @@ int main(int argc, char** argv) {
       {"model", model(single_channel("value"))},
       {"rgb-model", model(rgb_channels())},
       {"spectral-model", model(spectral())},
-      {"white", white()},
+      {"white", matt(single_channel("value"))},
+      {"rgb-white", matt(rgb_channels())},
       {"rgl", small_rgl(rgb_channels())},
       {"spectral-rgl", small_rgl(spectral())},
   };
@@ -176,9 +207,10 @@ int main(int argc, char** argv) {
       fs::remove_all(written);
     }
   }
-  for (const auto& [format, text] : by_hand()) {
+  for (std::size_t k = 0; k < by_hand().size(); ++k) {
+    const auto& [format, text] = by_hand()[k];
     fs::create_directories(corpus / format);
-    write_file_atomically(corpus / format / "by-hand", text);
+    write_file_atomically(corpus / format / fmt::format("by-hand-{}", k), text);
   }
   fs::create_directories(corpus / "fit-json");
   for (const auto& example : fs::directory_iterator(GONIO_SOURCE_DIR "/data-schemas/examples/valid"))
