@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "brdf/error.hpp"
+#include "tabulated/distorted_angles.hpp"
 #include "tabulated/specular_angles.hpp"
 
 namespace gonio::tabulated {
@@ -53,6 +54,12 @@ double offset_at(const Lattice& lattice, double theta_i_deg) {
   return (1 - at.weight) * lattice.offset_deg[at.node[0]] + at.weight * lattice.offset_deg[at.node[1]];
 }
 
+/// The pole of distorted coordinates: the specular direction moved by the offset, above the surface.
+Direction distorted_pole(double theta_i_deg, double offset_deg, Angle phi_i) {
+  constexpr double nearly_horizontal_deg = 90 - 1e-9;
+  return Direction::spherical(degrees(std::min(theta_i_deg + offset_deg, nearly_horizontal_deg)), phi_i + degrees(180));
+}
+
 /// The four angles of a pair above the surface, in degrees.
 std::array<double, 4> coordinates_of(const Lattice& lattice, const Direction& wi, const Direction& wo) {
   const bool isotropic = lattice.nodes_deg[1].size() == 1;
@@ -66,6 +73,11 @@ std::array<double, 4> coordinates_of(const Lattice& lattice, const Direction& wi
       const Direction mean = Direction::spherical(degrees(theta_i + offset_at(lattice, theta_i)), wi.phi());
       const SpecularAngles angles = to_specular(mean, wo, Side::reflection);
       return {theta_i, wi.phi().degrees(), angles.radial_deg, angles.azimuth_deg};
+    }
+    case LatticeCoordinates::distorted: {
+      const double theta_i = wi.theta().degrees(), phi_i = wi.phi().degrees();
+      const DistortedAngles angles = to_distorted(distorted_pole(theta_i, offset_at(lattice, theta_i), wi.phi()), wo);
+      return {theta_i, phi_i, angles.polar_deg, isotropic ? angles.azimuth_deg - phi_i : angles.azimuth_deg};
     }
     case LatticeCoordinates::half_difference: break;
   }
@@ -123,6 +135,13 @@ GonioAngles Lattice::angles(std::size_t index) const {
       const Angle mean = offset_deg.empty() ? angle[0] : degrees(angle[0].degrees() + offset_deg[at[0]]);
       out = from_specular(mean, angle[1], {angle[2].degrees(), angle[3].degrees()}, Side::reflection);
       out.theta_i = angle[0];
+      break;
+    }
+    case LatticeCoordinates::distorted: {
+      const Direction pole = distorted_pole(angle[0].degrees(), offset_deg.empty() ? 0 : offset_deg[at[0]], angle[1]);
+      const Angle azimuth = nodes_deg[1].size() == 1 ? angle[1] + angle[3] : angle[3];
+      const Direction wo = from_distorted(pole, {angle[2].degrees(), azimuth.degrees()});
+      out = {angle[0], angle[1], wo.theta(), wo.phi()};
       break;
     }
     case LatticeCoordinates::half_difference: {

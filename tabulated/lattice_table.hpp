@@ -13,15 +13,17 @@ namespace gonio::tabulated {
 
 /// What the four angles of a lattice are.
 enum class LatticeCoordinates {
-  spherical,       ///< theta_i, phi_i, theta_o, phi_o; with a single phi_i the last is phi_o - phi_i
-  specular,        ///< theta_i, phi_i, angle from the specular direction, azimuth about it (tabulated/specular_angles.hpp)
-  half_difference  ///< theta_h, phi_h, theta_d, phi_d of Rusinkiewicz (brdf/coordinates.hpp)
+  spherical,        ///< theta_i, phi_i, theta_o, phi_o; with a single phi_i the last is phi_o - phi_i
+  specular,         ///< theta_i, phi_i, angle from the specular direction, azimuth about it (tabulated/specular_angles.hpp)
+  half_difference,  ///< theta_h, phi_h, theta_d, phi_d of Rusinkiewicz (brdf/coordinates.hpp)
+  distorted  ///< theta_i, phi_i, polar angle, azimuth of tabulated/distorted_angles.hpp; with a single phi_i the last counts from phi_i
 };
 
 struct Lattice {
   LatticeCoordinates coordinates = LatticeCoordinates::spherical;
   std::array<std::vector<double>, 4> nodes_deg;  ///< increasing, none empty; a single second angle: isotropic
-  /// Specular coordinates only: what is added to theta_i to get the zenith angle the third angle counts from, per theta_i; or empty.
+  /// Specular and distorted coordinates only: what is added to theta_i to get the zenith angle the third angle counts from, per theta_i;
+  /// or empty.
   std::vector<double> offset_deg;
   bool bilateral = false;   ///< the last angle stands for its negative too
   bool reciprocal = false;  ///< half-difference only: phi_d stands for phi_d + 180° too

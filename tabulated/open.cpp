@@ -210,6 +210,8 @@ const std::vector<Format>& formats() {
       {"ssdd-binary", "the same with binary numbers", nullptr, nullptr, write_ssdd_binary, ".ssdd"},
       {"ssdd-spherical", "the same in spherical coordinates", nullptr, nullptr, write_ssdd_spherical, ".ssdd"},
       {"ssdd-specular", "the same in coordinates about the specular direction", nullptr, nullptr, write_ssdd_specular, ".ssdd"},
+      {"ssdd-distorted", "the same in polar coordinates between the specular direction and the horizon", nullptr, nullptr,
+       write_ssdd_distorted, ".ssdd"},
       {"alta",
        "samples as text of the ALTA library, with its #DIM and #PARAM lines",
        recognises_alta,

@@ -131,10 +131,11 @@ Lattice lattice_of(const Block& block, FaultList& faults) {
   else if (type == "half_difference_coordinate_system")
     out.coordinates = LatticeCoordinates::half_difference;
   else if (type == "distorted_spherical_coordinate_system")
-    faults.add_at(block.line, type, "coordinates the document of the format defines: spherical, specular or half-difference ones");
+    out.coordinates = LatticeCoordinates::distorted;
   else if (scatter && type != "spherical_coordinate_system")
     faults.add_at(block.line, fmt::format("PARAM_TYPE {}", excerpt(type)),
-                  "spherical_coordinate_system, specular_coordinate_system or half_difference_coordinate_system");
+                  "spherical_coordinate_system, specular_coordinate_system, half_difference_coordinate_system or "
+                  "distorted_spherical_coordinate_system");
 
   std::vector<std::string_view> reductions;
   const std::string reduction = block.text("REDUCTION_TYPE");
@@ -147,6 +148,7 @@ Lattice lattice_of(const Block& block, FaultList& faults) {
     else
       faults.add_at(block.line, fmt::format("REDUCTION_TYPE {}", excerpt(word)),
                     "bilateral_symmetry, or reciprocity in half-difference coordinates");
+  const bool absolute_azimuths = out.coordinates == LatticeCoordinates::spherical || out.coordinates == LatticeCoordinates::distorted;
   const double last_azimuth = (out.bilateral ? 180.0 : 360.0) / (out.reciprocal ? 2 : 1);
   const double last_third = out.coordinates == LatticeCoordinates::specular ? 180 : 90;
   out.nodes_deg[0] = list_of(block, "PARAM0_LIST", 0, 90, faults);
@@ -158,17 +160,18 @@ Lattice lattice_of(const Block& block, FaultList& faults) {
     out.nodes_deg[3] = list_of(block, "PARAM3_LIST", 0, last_azimuth, faults);
     for (const char* key : {"PARAM2_LIST", "PARAM3_LIST"})
       if (!block.entries.contains(key)) faults.add_at(block.line, fmt::format("no {}", key), "its angles");
-    if (out.coordinates == LatticeCoordinates::specular) out.offset_deg = list_of(block, "PARAM4_LIST", -90, 90, faults);
+    if (out.coordinates == LatticeCoordinates::specular || out.coordinates == LatticeCoordinates::distorted)
+      out.offset_deg = list_of(block, "PARAM4_LIST", -90, 90, faults);
     if (!out.offset_deg.empty() && out.offset_deg.size() != out.nodes_deg[0].size())
       faults.add_at(block.line, fmt::format("{} offsets", out.offset_deg.size()),
                     fmt::format("{}, one per angle of incidence", out.nodes_deg[0].size()));
-    if (out.bilateral && out.coordinates == LatticeCoordinates::spherical && out.nodes_deg[1].size() > 1)
+    if (out.bilateral && absolute_azimuths && out.nodes_deg[1].size() > 1)
       faults.add_at(block.line, "bilateral_symmetry of absolute azimuths", "a single azimuth of incidence, or specular coordinates");
   } else {
     out.nodes_deg[2] = out.nodes_deg[3] = {0};
   }
-  // A spherical table of one azimuth phi_i other than 0 has phi_o absolute: ours has it relative.
-  if (out.coordinates == LatticeCoordinates::spherical && out.nodes_deg[1].size() == 1 && out.nodes_deg[1][0] != 0)
+  // With one azimuth phi_i other than 0 the document does not say whether the last angle counts from it.
+  if (absolute_azimuths && out.nodes_deg[1].size() == 1 && out.nodes_deg[1][0] != 0)
     faults.add_at(block.line, fmt::format("the one azimuth of incidence {}", out.nodes_deg[1][0]), "0, or several");
   if (block.data_type() == "btdf") out.side = Side::transmission;
   return out;
@@ -254,6 +257,23 @@ std::map<std::string, Block> read_blocks(std::string_view bytes, std::string& he
   return out;
 }
 
+/// What a block of specular reflectances or transmittances holds, for people: the BRDF beside it does not contain it.
+std::string mirror_words(const Block& block) {
+  FaultList none("");
+  const Lattice lattice = lattice_of(block, none);
+  const std::size_t channels = channels_of(block, none).size();
+  constexpr std::size_t most_words = 400;
+  std::string out;
+  for (std::size_t node = 0; node < lattice.size() && out.size() < most_words; ++node) {
+    const std::array<std::size_t, 4> at = lattice.position(node);
+    const auto first = block.numbers.begin() + static_cast<std::ptrdiff_t>(node * channels);
+    out += fmt::format("{}{} at {} deg", node == 0 ? "" : "; ", fmt::join(first, first + static_cast<std::ptrdiff_t>(channels), " "),
+                       lattice.nodes_deg[0][at[0]]);
+    if (lattice.nodes_deg[1].size() > 1) out += fmt::format(", azimuth {} deg", lattice.nodes_deg[1][at[1]]);
+  }
+  return out.size() < most_words ? out : out + " ...";
+}
+
 }  // namespace
 
 bool recognises_ssdd(std::string_view head, std::uintmax_t) {
@@ -275,7 +295,9 @@ Opened open_ssdd(const std::filesystem::path& path, const ReadOptions& options) 
   if (wanted != "brdf" && wanted != "btdf") throw Error(ErrorKind::usage, {"--assume data_type", wanted, "brdf or btdf"});
   std::string kinds;
   for (const auto& [type, block] : blocks) kinds += (kinds.empty() ? "" : ", ") + type;
-  if (!blocks.contains(wanted)) throw Error(ErrorKind::input, {path.string(), kinds, "a block of DATA_TYPE " + wanted});
+  if (!blocks.contains(wanted))
+    throw Error(ErrorKind::input,
+                {path.string(), kinds, "a block of DATA_TYPE " + (options.assumed("data_type") ? wanted : "brdf or btdf")});
 
   const Block& block = blocks.at(wanted);
   Lattice lattice = lattice_of(block, faults);
@@ -294,6 +316,8 @@ Opened open_ssdd(const std::filesystem::path& path, const ReadOptions& options) 
                                      {"blocks", kinds + "; read: " + wanted}});
   for (const char* key : {"NAME", "SOURCE_TYPE", "DEVICE", "CREATION_DATE", "MEASUREMENT_DATE"})
     if (!block.text(key).empty()) out.info.emplace_back(key, block.text(key));
+  for (const auto& [type, other] : blocks)
+    if (type.starts_with("specular_")) out.info.emplace_back(type, mirror_words(other));
   return out;
 }
 

@@ -63,6 +63,7 @@ Lattice grid_of(LatticeCoordinates coordinates, const Opened& source, GridSize s
       break;
     }
     case LatticeCoordinates::specular: out.nodes_deg = {directions.theta_i_deg, incidence, radial_grid_deg(size), turn}; break;
+    case LatticeCoordinates::distorted: out.nodes_deg = {directions.theta_i_deg, incidence, squares(counts.half), turn}; break;
     case LatticeCoordinates::half_difference: out.nodes_deg = {squares(counts.half), incidence, even(90, counts.difference), turn}; break;
   }
   return out;
@@ -105,7 +106,7 @@ ExportNotes write(LatticeCoordinates coordinates, bool binary, const Opened& sou
   std::vector<std::vector<double>> values = lattice_values(source, lattice, colours.map, options.threads, notes);
   if (fill_unknown(lattice, values) > 0) notes.lost.emplace_back("nodes beyond the horizon and unknown ones repeat their neighbour");
 
-  constexpr const char* types[] = {"spherical", "specular", "half_difference"};
+  constexpr const char* types[] = {"spherical", "specular", "half_difference", "distorted_spherical"};
   std::string text = fmt::format("VERSION 0.3\nSOFTWARE gonio\n\nDATA_TYPE {}\nCOLOR_MODEL {}\n",
                                  lattice.side == Side::transmission ? "btdf" : "brdf", colours.model);
   if (std::string_view(colours.model) == "spectrum") {
@@ -141,6 +142,9 @@ ExportNotes write(LatticeCoordinates coordinates, bool binary, const Opened& sou
                           lattice.nodes_deg[2].size(), lattice.nodes_deg[3].size(), types[static_cast<int>(coordinates)]));
   if (source.uncertain || (source.dataset && source.dataset->has_uncertainty()))
     notes.lost.emplace_back("uncertainties have no place in the format");
+  if (own != nullptr)
+    for (const auto& [key, value] : source.info)
+      if (key.starts_with("specular_")) notes.lost.push_back(fmt::format("the {} of the source file", key));
   return notes;
 }
 
@@ -160,6 +164,9 @@ ExportNotes write_ssdd_spherical(const Opened& source, const std::filesystem::pa
 }
 ExportNotes write_ssdd_specular(const Opened& source, const std::filesystem::path& path, const WriteOptions& options) {
   return write(LatticeCoordinates::specular, false, source, path, options);
+}
+ExportNotes write_ssdd_distorted(const Opened& source, const std::filesystem::path& path, const WriteOptions& options) {
+  return write(LatticeCoordinates::distorted, false, source, path, options);
 }
 
 }  // namespace gonio::tabulated

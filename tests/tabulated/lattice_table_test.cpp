@@ -14,7 +14,7 @@ using namespace gonio::tabulated;
 namespace {
 
 constexpr LatticeCoordinates every_kind[] = {LatticeCoordinates::spherical, LatticeCoordinates::specular,
-                                             LatticeCoordinates::half_difference};
+                                             LatticeCoordinates::half_difference, LatticeCoordinates::distorted};
 
 std::vector<double> steps(double last, int count) {
   std::vector<double> out;

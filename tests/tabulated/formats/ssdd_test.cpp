@@ -20,7 +20,7 @@ using test::faults_of;
 namespace {
 
 using Writer = ExportNotes (*)(const Opened&, const std::filesystem::path&, const WriteOptions&);
-constexpr Writer writers[] = {write_ssdd, write_ssdd_binary, write_ssdd_spherical, write_ssdd_specular};
+constexpr Writer writers[] = {write_ssdd, write_ssdd_binary, write_ssdd_spherical, write_ssdd_specular, write_ssdd_distorted};
 
 /// Smooth; on demand not the same on both sides of the plane of incidence, or dependent on phi_i.
 class Smooth final : public Brdf {
@@ -125,6 +125,8 @@ TEST_CASE("Comments, blank lines and other blocks are passed over; the block can
   const Opened read = open(lambert + mirror);
   CHECK(read.dataset->f[0] == std::vector<double>{0.3183, 0.25});
   CHECK(read.info[4].second == "brdf, specular_reflectance; read: brdf");
+  CHECK(read.info.back() == std::pair<std::string, std::string>("specular_reflectance", "0.1 0.2 at 0 deg; 0.3 0.4 at 90 deg"));
+  CHECK(faults_of([&] { open("VERSION 0.3\n" + mirror); }).find("brdf or btdf") != std::string::npos);
   std::string transmission = lambert.substr(lambert.find("DATA_TYPE"));
   transmission.replace(transmission.find("brdf"), 4, "btdf");
   ReadOptions options;
@@ -132,6 +134,22 @@ TEST_CASE("Comments, blank lines and other blocks are passed over; the block can
   CHECK(open(lambert + transmission, options).dataset->side == Side::transmission);
   CHECK(open("VERSION 0.3\n" + transmission).dataset->side == Side::transmission);
   CHECK(faults_of([&] { open(lambert, options); }).find("a block of DATA_TYPE btdf") != std::string::npos);
+}
+
+TEST_CASE("Distorted coordinates count from the specular direction, moved by the offsets, to the horizon") {
+  // One number per polar angle: 0 at the pole, 45 half way to the horizon on the disk of zenith angles, 90 at the horizon.
+  const std::string text =
+      "VERSION 0.3\nDATA_TYPE btdf\nCOLOR_MODEL monochrome\nPARAM_TYPE distorted_spherical_coordinate_system\n"
+      "PARAM0_LIST 0 60\nPARAM2_LIST 0 45 89\nPARAM3_LIST 0 90 180 270\nPARAM4_LIST 0 -20\nDATA ascii\n";
+  std::string numbers;
+  for (int azimuth = 0; azimuth < 4; ++azimuth) numbers += "0\n0\n45\n45\n89\n89\n";
+  const Opened read = open(text + numbers);
+  const Direction wi = Direction::spherical(60_deg, 0_deg);
+  const auto at = [&](Angle theta, Angle phi) { return read.brdf->eval(wi, Direction::spherical(degrees(180) - theta, phi))[0]; };
+  CHECK(std::fabs(at(40_deg, 180_deg)) < 1e-9);
+  CHECK(at(65_deg, 180_deg) == Approx(45).epsilon(1e-9));
+  CHECK(at(25_deg, 0_deg) == Approx(45).epsilon(1e-9));
+  CHECK(read.dataset->side == Side::transmission);
 }
 
 TEST_CASE("Spectra have a channel per wavelength") {
@@ -152,7 +170,9 @@ TEST_CASE("Everything that is wrong with the key words is named at once, with it
   };
   CHECK(with("PARAM0_LIST 0 80", "PARAM0_LIST 80 0").find(":8|0 after 80") != std::string::npos);
   CHECK(with("PARAM0_LIST 0 80", "PARAM0_LIST 0 nan").find("from 0 to 90") != std::string::npos);
-  CHECK(with("spherical_", "distorted_spherical_").find("defines: spherical") != std::string::npos);
+  CHECK(with("spherical_", "disturbed_").find("distorted_spherical_coordinate_system") != std::string::npos);
+  CHECK(with("spherical_", "distorted_spherical_").empty());
+  CHECK(with("PARAM2_LIST 0", "PARAM1_LIST 10\nPARAM2_LIST 0").find("the one azimuth of incidence 10") != std::string::npos);
   CHECK(with("PARAM2_LIST 0", "REDUCTION_TYPE reciprocity\nPARAM2_LIST 0").find("half-difference coordinates") != std::string::npos);
   CHECK(with("0.25\n", "0.25 1\n").find("2 numbers|1, one per channel") != std::string::npos);
   CHECK(with("0.25\n", "inf\n").find("a finite number") != std::string::npos);
