@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "brdf/error.hpp"
+#include "tabulated/cell_reading.hpp"
 #include "tabulated/multiversion.hpp"
 
 namespace gonio::tabulated {
@@ -18,131 +19,87 @@ namespace {
 
 constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
 
-/// Pairs handled at once: the columns below stay in the first-level cache, and the memory requests of one batch overlap.
-constexpr std::size_t batch = 128;
+/// Eight floats or integers, in one register where there is one so wide.
+typedef float Lanes __attribute__((vector_size(32)));
+typedef std::int32_t IntLanes __attribute__((vector_size(32)));
+constexpr std::size_t lane_count = 8;
+static_assert(Cells::most % lane_count == 0);
 
-/// Four floats in one register: the channels of a node, and whatever lies behind them.
-typedef float Lanes __attribute__((vector_size(16)));
-typedef std::uint16_t HalfLanes __attribute__((vector_size(8)));
-typedef std::uint32_t BitLanes __attribute__((vector_size(16)));
-constexpr std::size_t lane_count = 4;
+struct Axis {
+  Axis(AxisEnd end, std::size_t nodes, std::size_t stride_in_nodes)
+      : circle(end == AxisEnd::periodic),
+        count(static_cast<float>(nodes)),
+        per_turn(1 / count),
+        highest(circle ? count : count - 2),
+        stride(static_cast<std::int32_t>(stride_in_nodes)) {}
 
-inline Lanes load(const float* from) noexcept {
-  Lanes out;
-  std::memcpy(&out, from, sizeof out);
-  return out;
-}
-
-/// The bits of a half in a float's place are the number times 2^-112; what had the largest exponent (NaN) becomes 2^16 and more.
-inline Lanes load(const std::uint16_t* from) noexcept {
-  HalfLanes halfs;
-  std::memcpy(&halfs, from, sizeof halfs);
-  const BitLanes bits = __builtin_convertvector(halfs, BitLanes);
-  const BitLanes magnitude = (bits & 0x7fffu) << 13, sign = (bits & 0x8000u) << 16;
-  Lanes scaled;
-  std::memcpy(&scaled, &magnitude, sizeof scaled);
-  scaled *= 0x1p112f;
-  BitLanes all;
-  std::memcpy(&all, &scaled, sizeof all);
-  const BitLanes is_nan = reinterpret_cast<BitLanes>(scaled >= 65536.0f) & 0x7fc00000u;
-  all |= sign | is_nan;
-  std::memcpy(&scaled, &all, sizeof scaled);
-  return scaled;
-}
-
-inline Lanes mix(Lanes a, Lanes b, float weight) noexcept { return a + weight * (b - a); }
-
-/// Where the pairs of one batch lie: the lowest corner's number in memory, and the weight of the higher neighbour on each axis.
-struct Cells {
-  std::array<std::uint32_t, batch> node;
-  std::array<std::array<float, batch>, 3> weight;
+  bool circle;
+  float count;     ///< of nodes
+  float per_turn;  ///< 1/count
+  float highest;   ///< that has a higher neighbour
+  std::int32_t stride;
 };
 
-struct AxisView {
-  AxisEnd end;
-  float count;           ///< of nodes
-  std::uint32_t stride;  ///< in nodes of the memory
-};
+/// Farther round a circle a position is not counted in turns: it is nonsense, but must stay in the table.
+constexpr float most_turns = 0x1p24f;
 
-/// What lies on the axis, from 0 up to the last node (clamped) or below `count` (periodic); NaN stays NaN. Truncation stands for the
-/// floor, which not every instruction set has: the numbers are small and, where it matters, not negative.
-inline float on_axis(float x, float last) noexcept {
-  x = x < 0.0f ? 0.0f : x;
-  return x > last ? last : x;
+/// What lies on the axis, from 0 up to the last node (clamped) or below `count` (periodic).
+float on_axis(const Axis& axis, float x) noexcept {
+  if (!axis.circle) return std::clamp(x, 0.0f, axis.count - 1);
+  x -= std::trunc(std::clamp(x * axis.per_turn, -most_turns, most_turns)) * axis.count;
+  x = std::max(x < 0 ? x + axis.count : x, 0.0f);
+  return x < axis.count ? x : 0;
 }
-inline float on_circle(float x, float count) noexcept {
-  const float turns = x / count, some = turns < 0x1p24f ? turns : 0x1p24f, safe = some > -0x1p24f ? some : -0x1p24f;
-  x -= static_cast<float>(static_cast<std::int32_t>(safe)) * count;
-  x = x < 0.0f ? x + count : x;
-  x = x < 0.0f ? 0.0f : x;  // too far away to be counted in turns
-  return x >= count ? 0.0f : x;
-}
-/// As an index; NaN, which a cast must not meet, is 0.
-inline std::int32_t whole(float x) noexcept { return static_cast<std::int32_t>(x >= 0.0f ? x : 0.0f); }
 
-/// `nearest` moves a pair to the nearest node and leaves no weight that is used.
-GONIO_MULTIVERSION void find_cells(const AxisView axis, const float* __restrict position, std::size_t count, bool nearest,
-                                   std::uint32_t* __restrict node, float* __restrict weight) noexcept {
-  const float last = axis.count - 1.0f, shift = nearest ? 0.5f : 0.0f;
-  if (axis.end == AxisEnd::periodic) {
-    for (std::size_t k = 0; k < count; ++k) {
-      const float x = on_circle(position[k] + shift, axis.count);
-      const std::int32_t low = whole(x);
-      weight[k] = x - static_cast<float>(low);
-      node[k] += static_cast<std::uint32_t>(low) * axis.stride;
+/// The same for a batch, and with it the node and weights. Positions that are NaN count as 0; true if there is one. Every choice is one of
+/// two numbers by a comparison of the same two, which processors have an instruction for; NaN gives the second.
+template <bool nearest>
+[[gnu::always_inline]] inline bool find_cells_of(const std::array<Axis, 3>& axes, const std::array<const float*, 3>& position,
+                                                 Cells& cells) noexcept {
+  IntLanes nowhere{};
+  for (std::size_t k = 0; k < cells.count; k += lane_count) {
+    IntLanes node{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Axis& axis = axes[a];
+      const Lanes zero{}, count = zero + axis.count;
+      Lanes x;
+      std::memcpy(&x, position[a] + k, sizeof x);
+      nowhere |= x != x;
+      if (nearest) x += 0.5f;
+      if (axis.circle) {
+        const Lanes most = zero + most_turns, least = zero - most_turns;
+        Lanes turns = x * axis.per_turn;
+        turns = turns < most ? turns : most;
+        turns = turns > least ? turns : least;
+        x -= __builtin_convertvector(__builtin_convertvector(turns, IntLanes), Lanes) * count;
+        x = x < zero ? x + count : x;
+        x = x > zero ? x : zero;
+        x = x < count ? x : zero;
+      } else {
+        const Lanes last = count - 1.0f;
+        x = x > zero ? x : zero;
+        x = x < last ? x : last;
+      }
+      if (nearest) {
+        node += __builtin_convertvector(x, IntLanes) * axis.stride;
+        continue;
+      }
+      const Lanes highest = zero + axis.highest;
+      const IntLanes low = __builtin_convertvector(x < highest ? x : highest, IntLanes);
+      const Lanes weight = x - __builtin_convertvector(low, Lanes);
+      std::memcpy(cells.weight[a].data() + k, &weight, sizeof weight);
+      node += low * axis.stride;
     }
-    return;
+    std::memcpy(cells.node.data() + k, &node, sizeof node);
   }
-  // The last node has no neighbour: it is the higher one of the cell before it.
-  const auto highest = static_cast<std::int32_t>(nearest ? last : last - 1.0f);
-  for (std::size_t k = 0; k < count; ++k) {
-    const float x = on_axis(position[k] + shift, last);
-    const std::int32_t low = whole(x) < highest ? whole(x) : highest;
-    weight[k] = x - static_cast<float>(low);
-    node[k] += static_cast<std::uint32_t>(low) * axis.stride;
-  }
+  std::int32_t any = 0;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) any |= nowhere[lane];
+  return any != 0;
 }
 
-/// What a lookup reads: numbers in memory, with lane_count more behind the last.
-template <class T>
-struct Memory {
-  const T* first;
-  std::size_t channels;
-  std::array<std::size_t, 3> stride;  ///< in elements
-};
-
-template <std::size_t fixed_channels, class T>
-void read_nearest(const Memory<T>& memory, const Cells& cells, std::size_t count, float* out) noexcept {
-  const std::size_t channels = fixed_channels ? fixed_channels : memory.channels;
-  for (std::size_t k = 0; k < count; ++k)
-    for (std::size_t c = 0; c < channels; c += lane_count) {
-      const Lanes value = load(memory.first + cells.node[k] * channels + c);
-      std::memcpy(out + k * channels + c, &value, std::min(lane_count, channels - c) * sizeof(float));
-    }
-}
-
-template <std::size_t fixed_channels, class T>
-void read_linear(const Memory<T>& memory, const Cells& cells, std::size_t count, float* out) noexcept {
-  const std::size_t channels = fixed_channels ? fixed_channels : memory.channels;
-  const std::size_t sx = memory.stride[0], sy = memory.stride[1], sz = memory.stride[2];
-  for (std::size_t k = 0; k < count; ++k) {
-    const float wx = cells.weight[0][k], wy = cells.weight[1][k], wz = cells.weight[2][k];
-    for (std::size_t c = 0; c < channels; c += lane_count) {
-      const T* const at = memory.first + cells.node[k] * channels + c;
-      const auto row = [&](const T* from) { return mix(load(from), load(from + sz), wz); };
-      const Lanes value = mix(mix(row(at), row(at + sy), wy), mix(row(at + sx), row(at + sx + sy), wy), wx);
-      std::memcpy(out + k * channels + c, &value, std::min(lane_count, channels - c) * sizeof(float));
-    }
-  }
-}
-
-template <class T>
-void read(const Memory<T>& memory, const Cells& cells, std::size_t count, Interpolation interpolation, float* out) noexcept {
-  const bool linear = interpolation == Interpolation::linear;
-  if (memory.channels == 3)
-    linear ? read_linear<3>(memory, cells, count, out) : read_nearest<3>(memory, cells, count, out);
-  else
-    linear ? read_linear<0>(memory, cells, count, out) : read_nearest<0>(memory, cells, count, out);
+GONIO_MULTIVERSION bool find_cells(const std::array<Axis, 3>& axes, const std::array<const float*, 3>& position,
+                                   Interpolation interpolation, Cells& cells) noexcept {
+  return interpolation == Interpolation::nearest ? find_cells_of<true>(axes, position, cells) : find_cells_of<false>(axes, position, cells);
 }
 
 }  // namespace
@@ -161,7 +118,7 @@ LookupGrid::LookupGrid(GridShape shape, std::span<const double> values, Storage 
                                    fmt::format("{} x {} x {} nodes of {} channels, at most 2^31 numbers", shape.count[0], shape.count[1],
                                                shape.count[2], shape.channels)});
   const auto fill = [&](auto& memory, auto&& stored) {
-    memory.resize(numbers + lane_count);
+    memory.resize(numbers + NodeMemory<float>::spare);
     std::size_t next = 0;
     for (std::size_t i = 0; i < stored_[0]; ++i)
       for (std::size_t j = 0; j < stored_[1]; ++j)
@@ -187,31 +144,28 @@ std::size_t LookupGrid::bytes() const noexcept { return f32_.size() * sizeof(flo
 void LookupGrid::lookup(const GridCoordinates& at, Interpolation interpolation, std::span<float> out) const {
   const std::size_t channels = shape_.channels, n = at.size();
   const std::array<std::size_t, 3> stride{stored_[1] * stored_[2], stored_[2], 1};
+  const auto axis = [&](std::size_t a) { return Axis(shape_.end[a], shape_.count[a], stride[a]); };
+  const std::array<Axis, 3> axes{axis(0), axis(1), axis(2)};
+  std::array<std::array<float, Cells::most>, 3> last_positions{};
   Cells cells;
-  for (std::size_t first = 0; first < n; first += batch) {
-    const std::size_t count = std::min(batch, n - first);
-    std::fill_n(cells.node.begin(), count, 0u);
-    for (std::size_t a = 0; a < 3; ++a)
-      find_cells({shape_.end[a], static_cast<float>(shape_.count[a]), static_cast<std::uint32_t>(stride[a])}, at.axis[a].data() + first,
-                 count, interpolation == Interpolation::nearest, cells.node.data(), cells.weight[a].data());
+  for (std::size_t first = 0; first < n; first += Cells::most) {
+    cells.count = std::min(Cells::most, n - first);
+    std::array<const float*, 3> position;
+    for (std::size_t a = 0; a < 3; ++a) {
+      position[a] = at.axis[a].data() + first;
+      // Positions are read in whole vectors.
+      if (cells.count < Cells::most) position[a] = std::copy_n(position[a], cells.count, last_positions[a].begin()) - cells.count;
+    }
+    const bool some_nowhere = find_cells(axes, position, interpolation, cells);
     float* const values = out.data() + first * channels;
-    const std::array<std::size_t, 3> elements{stride[0] * channels, stride[1] * channels, stride[2] * channels};
-    if (storage_ == Storage::f32)
-      read(Memory<float>{f32_.data(), channels, elements}, cells, count, interpolation, values);
-    else
-      read(Memory<std::uint16_t>{f16_.data(), channels, elements}, cells, count, interpolation, values);
-    if (interpolation == Interpolation::nearest) {
-      for (std::size_t k = 0; k < count; ++k)
-        if (const float sum = cells.weight[0][k] + cells.weight[1][k] + cells.weight[2][k]; sum != sum)
-          std::fill_n(values + k * channels, channels, unknown);
-      continue;
-    }
-    // A NaN has come from a node that is not known, the others of that cell may be; or from a coordinate.
-    for (std::size_t k = 0; k < count; ++k) {
-      bool whole = true;
-      for (std::size_t c = 0; c < channels; ++c) whole &= values[k * channels + c] == values[k * channels + c];
-      if (!whole) known_mean({at.axis[0][first + k], at.axis[1][first + k], at.axis[2][first + k]}, {values + k * channels, channels});
-    }
+    const auto read = [&]<class T>(const T* memory) {
+      const NodeMemory<T> nodes{memory, channels, stride};
+      interpolation == Interpolation::nearest ? read_nearest(nodes, cells, values) : read_linear(nodes, cells, values);
+    };
+    storage_ == Storage::f32 ? read(f32_.data()) : read(f16_.data());
+    for (std::size_t k = 0; some_nowhere && k < cells.count; ++k)
+      if (std::isnan(position[0][k]) || std::isnan(position[1][k]) || std::isnan(position[2][k]))
+        std::fill_n(values + k * channels, channels, unknown);
   }
 }
 
@@ -219,14 +173,11 @@ std::array<LookupGrid::Corner, 8> LookupGrid::corners(std::array<float, 3> posit
   std::array<Corner, 8> out;
   out.fill({0, 1});
   for (std::size_t a = 0; a < 3; ++a) {
-    const auto nodes = static_cast<float>(shape_.count[a]);
-    const bool circle = shape_.end[a] == AxisEnd::periodic;
-    const float x = circle ? on_circle(position[a], nodes) : on_axis(position[a], nodes - 1);
-    const std::int32_t low = circle ? whole(x) : std::min(whole(x), static_cast<std::int32_t>(nodes) - 2);
+    const Axis axis(shape_.end[a], shape_.count[a], 0);
+    const float x = on_axis(axis, position[a]), low = std::min(std::trunc(x), axis.highest), weight = x - low;
     for (std::size_t corner = 0; corner < 8; ++corner) {
       const bool high = (corner >> (2 - a) & 1) != 0;
       out[corner].node = out[corner].node * stored_[a] + static_cast<std::size_t>(low) + (high ? 1 : 0);
-      const float weight = x - static_cast<float>(low);
       out[corner].weight *= high ? weight : 1 - weight;
     }
   }
@@ -258,21 +209,16 @@ void LookupGrid::at(std::array<float, 3> position, Interpolation interpolation, 
   }
   if (interpolation == Interpolation::nearest) {
     std::size_t node = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-      const auto nodes = static_cast<float>(shape_.count[a]);
-      const float x = position[a] + 0.5f;
-      const float on = shape_.end[a] == AxisEnd::periodic ? on_circle(x, nodes) : on_axis(x, nodes - 1);
-      node = node * stored_[a] + static_cast<std::size_t>(whole(on));
-    }
+    for (std::size_t a = 0; a < 3; ++a)
+      node = node * stored_[a] + static_cast<std::size_t>(on_axis(Axis(shape_.end[a], shape_.count[a], 0), position[a] + 0.5f));
     for (std::size_t c = 0; c < shape_.channels; ++c) out[c] = value(node, c);
     return;
   }
   std::array<float, 3> weight{};
   for (std::size_t a = 0; a < 3; ++a) {
-    const auto nodes = static_cast<float>(shape_.count[a]);
-    const bool circle = shape_.end[a] == AxisEnd::periodic;
-    const float x = circle ? on_circle(position[a], nodes) : on_axis(position[a], nodes - 1);
-    weight[a] = x - (circle ? std::trunc(x) : std::min(std::trunc(x), nodes - 2));  // as a number: the batch counts in integers
+    const Axis axis(shape_.end[a], shape_.count[a], 0);
+    const float x = on_axis(axis, position[a]);
+    weight[a] = x - std::min(std::trunc(x), axis.highest);
   }
   const std::array<Corner, 8> corner = corners(position);
   bool whole = true;
@@ -280,9 +226,9 @@ void LookupGrid::at(std::array<float, 3> position, Interpolation interpolation, 
     std::array<float, 8> v;
     for (std::size_t k = 0; k < v.size(); ++k) v[k] = value(corner[k].node, c);
     const auto between = [](float a, float b, float w) { return a + w * (b - a); };
-    for (std::size_t k = 0; k < 4; ++k) v[k] = between(v[2 * k], v[2 * k + 1], weight[2]);
-    for (std::size_t k = 0; k < 2; ++k) v[k] = between(v[2 * k], v[2 * k + 1], weight[1]);
-    out[c] = between(v[0], v[1], weight[0]);
+    for (std::size_t k = 0; k < 4; ++k) v[k] = between(v[k], v[k + 4], weight[0]);
+    for (std::size_t k = 0; k < 2; ++k) v[k] = between(v[k], v[k + 2], weight[1]);
+    out[c] = between(v[0], v[1], weight[2]);
     whole &= !std::isnan(out[c]);
   }
   if (!whole) known_mean(position, out);
