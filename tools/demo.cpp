@@ -34,7 +34,8 @@ struct DemoFiles {
   fs::path table() const { return folder / "table.brdf.exr"; }
   fs::path fit() const { return folder / "fit.json"; }
   fs::path checks() const { return folder / "checks.json"; }
-  fs::path exported() const { return folder / "export" / "material.binary"; }
+  fs::path merl() const { return folder / "export" / "material.binary"; }
+  fs::path rgl() const { return folder / "export" / "material.bsdf"; }
   fs::path picture() const { return folder / "lobe.png"; }
 };
 
@@ -106,9 +107,12 @@ int demo_verb(const Arguments& arguments, Console& console) {
   write_file_atomically(files.checks(),
                         checks_document(checks, context({hash_in_background(files.samples())}, bench.seed, true)).dump(2) + "\n");
 
-  console.note("6. Export the fit on MERL's grid, draw the lobe");
+  console.note("6. Export the fit for renderers, draw the lobe");
   const tabulated::Opened fitted = tabulated::open_brdf(files.fit());
-  format_of_name(files.exported().string()).write(fitted, files.exported(), {});
+  tabulated::WriteOptions with_scene;
+  with_scene.scene = true;
+  writable_format("merl").write(fitted, files.merl(), {});
+  writable_format("rgl").write(fitted, files.rgl(), with_scene);
   const auto* model = dynamic_cast<const AnalyticBrdf*>(fitted.brdf.get());
   if (model == nullptr) throw Error(ErrorKind::internal, {files.fit().string(), "a fit that is no model", "a model"});
   draw_lobe(*samples.dataset, *model, files.picture());
@@ -141,7 +145,8 @@ int demo_verb(const Arguments& arguments, Console& console) {
                                                    {files.table(), "the same as a table, for image viewers too"},
                                                    {files.fit(), "the fitted model"},
                                                    {files.checks(), "the verdicts"},
-                                                   {files.exported(), "the fit on MERL's grid, for renderers"},
+                                                   {files.rgl(), "the fit for Mitsuba 3 and Falcor; material.xml: a scene"},
+                                                   {files.merl(), "the fit on MERL's grid"},
                                                    {files.picture(), "measured points over the fitted lobe"}};
   for (const auto& [path, what] : made) console.print(fmt::format("  {:<24} {}", fs::relative(path, folder).string(), what));
   return 0;

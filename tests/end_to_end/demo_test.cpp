@@ -13,7 +13,8 @@ TEST_CASE("the demo leaves every artefact, valid and not vacuous") {
   const auto outcome = run_gonio("demo '" + out + "'");
   INFO(outcome.out << outcome.err);
   REQUIRE(outcome.code == 0);
-  for (const char* file : {"run.gonio", "samples.csv", "table.brdf.exr", "fit.json", "checks.json", "export/material.binary", "lobe.png"}) {
+  for (const char* file : {"run.gonio", "samples.csv", "table.brdf.exr", "fit.json", "checks.json", "export/material.bsdf",
+                           "export/material.xml", "export/material.binary", "lobe.png"}) {
     INFO(file);
     CHECK(std::filesystem::exists(folder / "out" / file));
   }
@@ -31,7 +32,7 @@ TEST_CASE("the demo leaves every artefact, valid and not vacuous") {
   CHECK(png.size() > 20000);
 
   // Every artefact opens again.
-  for (const char* file : {"run.gonio", "samples.csv", "table.brdf.exr", "fit.json", "export/material.binary"}) {
+  for (const char* file : {"run.gonio", "samples.csv", "table.brdf.exr", "fit.json", "export/material.bsdf", "export/material.binary"}) {
     const auto info = run_gonio("info '" + (folder / "out" / file).string() + "'");
     INFO(file << info.err);
     CHECK(info.code == 0);
