@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "brdf/error.hpp"
+#include "tabulated/formats/rgl_microsurface.hpp"
 #include "tabulated/in_parallel.hpp"
 #include "tabulated/node_values.hpp"
-#include "tabulated/formats/rgl_microsurface.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -194,7 +194,7 @@ class ValueBuilder {
   /// out by is f cos theta_o over that density.
   void evaluate(std::size_t p, ExportNotes& notes) {
     std::vector<Direction> wi(thetas_ * plane_), wo(wi);
-    std::vector<double> factor(wi.size()), visible_share(wi.size());
+    std::vector<double> factor(wi.size()), visible_share(wi.size()), height(wi.size());
     in_parallel(thetas_, threads_, [&](std::size_t t) {
       const std::size_t index = p * thetas_ + t;
       const Slice slice(arrays_, index);
@@ -208,6 +208,7 @@ class ValueBuilder {
         wi[n] = raised(i), wo[n] = raised(out);
         factor[n] = slice.ratio_factor(m) * wo[n].z();
         visible_share[n] = density_at(visible_, index, u) / density_at(arrays_.vndf, index, u);
+        height[n] = out.z();
         if (!(out.z() > 0)) ++below_horizon_;
       }
     });
@@ -227,7 +228,23 @@ class ValueBuilder {
         luminance_.apply(f.data(), &y);
         luminance_of(slice)[k] = static_cast<float>(y * visible_share[n]);
       }
+      for (std::size_t c = 0; c < mapped.size(); ++c) cross_horizon(height.data() + t * plane_, values_of(p * thetas_ + t, c));
     });
+  }
+
+  /// f cos theta_o vanishes at the horizon, which runs between nodes: those next to it on the far side are 0. The value of the raised
+  /// direction, over the small density of half vectors there, would light a seam along the terminator of every body; numbers below 0 that
+  /// put the crossing where it belongs are refused as light by renderers. Nodes farther below, which no direction above uses, keep theirs.
+  void cross_horizon(const double* height, float* values) const {
+    const auto touches_light = [&](std::size_t row, std::size_t column) {
+      for (std::size_t r = std::max<std::size_t>(row, 1) - 1; r <= std::min(row + 1, side_ - 1); ++r)
+        for (std::size_t c = std::max<std::size_t>(column, 1) - 1; c <= std::min(column + 1, side_ - 1); ++c)
+          if (height[r * side_ + c] > 0) return true;
+      return false;
+    };
+    for (std::size_t row = 0; row < side_; ++row)
+      for (std::size_t column = 0; column < side_; ++column)
+        if (!(height[row * side_ + column] > 0) && touches_light(row, column)) values[row * side_ + column] = 0;
   }
 
   /// The azimuth of half vectors runs down the rows, and the density is symmetric: node and mirror image are as far from both ends.
