@@ -11,6 +11,8 @@ namespace gonio::tabulated {
 namespace {
 
 constexpr double nothing_per_sr = 1e-6;
+/// Of the uncertainty of a mean: an error of quadrature that adds half a percent to it.
+constexpr double part_of_u = 0.1;
 
 }  // namespace
 
@@ -44,10 +46,14 @@ CellMean::Result CellMean::with_rule(const GaussLegendre& rule, std::size_t dime
     if (std::any_of(f.begin(), f.begin() + static_cast<std::ptrdiff_t>(channels), [](double value) { return std::isnan(value); })) continue;
     total += weights[k];
     for (std::size_t c = 0; c < channels; ++c) out.f[c] += weights[k] * f[c];
+    if (values.u.empty()) continue;
+    map_.apply(values.u.data() + k * values.channel_count, f.data());
+    for (std::size_t c = 0; c < channels; ++c)
+      if (f[c] > 0) out.u[c] += weights[k] * f[c];
   }
   out.known = total > 0;
   if (out.known)
-    for (double& value : out.f) value /= total;
+    for (std::size_t c = 0; c < channels; ++c) out.f[c] /= total, out.u[c] /= total;
   return out;
 }
 
@@ -60,7 +66,8 @@ CellMean::Result CellMean::operator()(std::size_t dimensions, const std::functio
     if (last) {
       for (std::size_t c = 0; c < map_.to.size(); ++c) {
         const double difference = std::fabs(mean.f[c] - last->f[c]), size = std::fabs(mean.f[c]);
-        if (difference > tolerance_ * size + nothing_per_sr) mean.unsettled = std::max(mean.unsettled, difference / size);
+        if (difference > tolerance_ * size + part_of_u * mean.u[c] + nothing_per_sr)
+          mean.unsettled = std::max(mean.unsettled, difference / size);
       }
       if (mean.unsettled == 0) return mean;
     }

@@ -19,12 +19,14 @@ namespace gonio::tabulated {
 class CellMean {
  public:
   /// `orders` of the rules per dimension, increasing. A mean is settled when it differs from the one before by at most
-  /// `tolerance` of it (and 1e-6 1/sr, which is nothing beside any surface's 0.3).
+  /// `tolerance` of it, by a tenth of its own uncertainty where the source knows one (as if the errors of a cell went all one way), and by
+  /// 1e-6 1/sr, which is nothing beside any surface's 0.3; the three added up.
   CellMean(const Opened& source, const ChannelMap& map, std::vector<std::size_t> orders, double tolerance);
 
   static constexpr std::size_t max_channels = 3, max_dimensions = 4;
   struct Result {
     std::array<double, max_channels> f{};  ///< of the channels of the map; 0 if nothing is known
+    std::array<double, max_channels> u{};  ///< mean standard uncertainty, of points that know theirs; 0 if none does
     double unsettled = 0;                  ///< relative difference of the last two rules if that is too much, else 0
     bool known = false;                    ///< false: NaN at every point; points with NaN are left out of means
   };

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
-#include "tabulated/convex_hull.hpp"
 #include "tabulated/in_parallel.hpp"
 #include "tabulated/lobe_quadrature.hpp"
 
@@ -15,24 +15,15 @@ namespace gonio::tabulated {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-/// Distance, in steps of the plan, at which a pair is the sample's own: rounding of directions made from angles.
-constexpr double same_place = 1e-5;
-/// Steps beyond the hull of the neighbours that a chord across a curved edge of the measured region explains.
-constexpr double hull_tolerance = 0.3;
-/// Neighbours that must surround a pair, if those that take part in its value do not.
-constexpr std::size_t hull_neighbours = 64;
-/// A pair farther from its nearest sample than this, and than the samples there from one another, lies in a gap [steps].
-constexpr double gap = 1.5;
-constexpr std::size_t gap_neighbours = 6;
 /// Incidences of the energy bound.
 constexpr std::size_t bound_thetas = 19, bound_phis = 13;
 
 }  // namespace
 
 struct GuidedTable::Scratch {
-  std::vector<Neighbour> found, around;
-  std::vector<std::size_t> places;
-  std::vector<PairPoint> points;
+  Neighbourhoods::Box box{};
+  std::shared_ptr<const Neighbourhood> of_box;  ///< null: none yet
+  std::optional<Neighbourhood> of_place;
   KrigingWeights weights;
 };
 
@@ -88,7 +79,8 @@ GuidedTable::GuidedTable(std::shared_ptr<const Dataset> samples, std::shared_ptr
       guide_(std::move(guide)),
       options_(options),
       samples_(guided_samples(*dataset_, guide_.get())),
-      error_(estimate_interpolation_error(samples_, options.threads)) {}
+      error_(estimate_interpolation_error(samples_, options.threads)),
+      neighbourhoods_(samples_, error_.ranges) {}
 
 GuidedTable::~GuidedTable() = default;
 
@@ -96,63 +88,36 @@ Coverage GuidedTable::eval_pair(const Direction& wi, const Direction& wo, const 
                                 Scratch& scratch) const {
   const std::size_t channels = samples_.floor.size();
   const PairPoint at = samples_.place(wi, wo);
-  const NeighbourTree& tree = *samples_.places;
-  tree.around(at, {.most = kriging_neighbours, .reach = kriging_reach}, scratch.found);
-  Coverage coverage = Coverage::interpolated;
-  if (scratch.found.empty()) {
-    coverage = Coverage::extrapolated;
-    tree.around(at, {.most = kriging_neighbours}, scratch.found);
-  }
-  if (scratch.found[0].squared < same_place * same_place) {
-    coverage = Coverage::measured;
-    scratch.found.resize(1);
-  }
-  scratch.places.clear();
-  scratch.points.clear();
-  for (const Neighbour& neighbour : scratch.found) {
-    scratch.places.push_back(neighbour.point);
-    scratch.points.push_back(tree[neighbour.point]);
-  }
-  if (coverage == Coverage::interpolated) {
-    const double nearest = std::sqrt(scratch.found[0].squared);
-    bool beyond = false;
-    if (!within_hull(at, scratch.points, hull_tolerance)) {
-      tree.around(at, {.most = hull_neighbours, .reach = kriging_reach}, scratch.around);
-      std::vector<PairPoint> wider;
-      for (const Neighbour& neighbour : scratch.around) wider.push_back(tree[neighbour.point]);
-      beyond = !within_hull(at, wider, hull_tolerance);
-    }
-    if (!beyond && nearest > gap) {
-      tree.around(tree[scratch.places[0]], {.most = gap_neighbours}, scratch.around);
-      beyond = nearest > std::sqrt(scratch.around.back().squared);
-    }
-    if (!beyond && samples_.masked->size() > 0) {
-      samples_.masked->around(at, {.most = 1, .reach = nearest}, scratch.around);
-      beyond = !scratch.around.empty();
-    }
-    if (beyond) coverage = Coverage::extrapolated;
-  }
+  if (const auto box = Neighbourhoods::box_of(at); !scratch.of_box || box != scratch.box)
+    scratch.box = box, scratch.of_box = neighbourhoods_.of(box);
+  const Neighbourhood* near = scratch.of_box.get();
+  if (near->crowded()) near = &scratch.of_place.emplace(neighbourhoods_.at(at));
+  std::span<const std::size_t> places = near->places();
+  const Neighbourhood::Nearest nearest = near->nearest(at);
+  const Coverage coverage = nearest.is_here ? Coverage::measured : near->coverage(at, nearest);
   if (coverage == Coverage::extrapolated && !options_.extrapolate) {
     std::fill_n(f, channels, nan);
     if (u) std::fill_n(u, channels, nan);
     return Coverage::unknown;
   }
 
-  if (coverage == Coverage::measured)
+  if (coverage == Coverage::measured) {
+    places = places.subspan(nearest.index, 1);
     scratch.weights.weight.assign(1, 1.0), scratch.weights.variance = 0;
-  else
-    ordinary_kriging(at, scratch.points, error_.ranges, scratch.weights);
+  } else {
+    near->weights_at(at, scratch.weights);
+  }
   bool any = false;
   for (std::size_t c = 0; c < channels; ++c) {
     const auto& rest = samples_.rest[c];
     bool positive = true;
     double y = 0, weights = 0, low = std::numeric_limits<double>::infinity(), high = -low;
-    for (std::size_t k = 0; k < scratch.places.size(); ++k) {
-      const double one = rest[scratch.places[k]], weight = scratch.weights.weight[k];
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const double one = rest[places[k]], weight = scratch.weights.weight[k];
       if (std::isnan(one)) continue;
       y += weight * one, weights += weight;
       low = std::min(low, one), high = std::max(high, one);
-      positive = positive && samples_.means.f[c][samples_.mean_of[scratch.places[k]]] >= 0;
+      positive = positive && samples_.means.f[c][samples_.mean_of[places[k]]] >= 0;
     }
     constexpr double enough = 0.5;  // of the weight with a value in this channel
     if (!(weights > enough)) {
@@ -165,21 +130,20 @@ Coverage GuidedTable::eval_pair(const Direction& wi, const Direction& wo, const 
     const double scale = guide[c] + samples_.floor[c];
     f[c] = guide[c] + scale * y;
     if (positive) f[c] = std::max(f[c], 0.0);  // where the guide falls below the floor, the rest is a difference
-    if (coverage == Coverage::measured) f[c] = samples_.means.f[c][samples_.mean_of[scratch.places[0]]];
+    if (coverage == Coverage::measured) f[c] = samples_.means.f[c][samples_.mean_of[places[0]]];
     const double energy = coverage == Coverage::extrapolated && bounded ? energy_bound().at(wi, c) : 1;
     f[c] *= energy;
     if (!u) continue;
-    if (coverage == Coverage::measured && std::isnan(samples_.means.u[c][samples_.mean_of[scratch.places[0]]])) {
+    if (coverage == Coverage::measured && std::isnan(samples_.means.u[c][samples_.mean_of[places[0]]])) {
       u[c] = nan;
       continue;
     }
-    const auto parts = error_.parts(samples_, c, scale, scratch.places, scratch.weights);
+    const auto parts = error_.parts(samples_, c, scale, places, scratch.weights);
     double variance = scale * scale * (parts.noise + parts.interpolation);
     for (const auto& component : samples_.means.shared) {
       double part = 0;
-      for (std::size_t k = 0; k < scratch.places.size(); ++k)
-        part +=
-            scratch.weights.weight[k] * component[c][samples_.mean_of[scratch.places[k]]] * scale / samples_.scale[c][scratch.places[k]];
+      for (std::size_t k = 0; k < places.size(); ++k)
+        part += scratch.weights.weight[k] * component[c][samples_.mean_of[places[k]]] * scale / samples_.scale[c][places[k]];
       variance += part * part;
     }
     u[c] = energy * std::sqrt(variance);

@@ -10,6 +10,7 @@
 #include "brdf/uncertain_brdf.hpp"
 #include "tabulated/guided_samples.hpp"
 #include "tabulated/interpolation_error.hpp"
+#include "tabulated/neighbourhood.hpp"
 
 namespace gonio::tabulated {
 
@@ -67,6 +68,7 @@ class GuidedTable final : public UncertainBrdf {
   GuidedTableOptions options_;
   GuidedSamples samples_;
   InterpolationError error_;
+  Neighbourhoods neighbourhoods_;
   mutable std::once_flag energy_once_;
   mutable std::unique_ptr<const EnergyBound> energy_;
 };

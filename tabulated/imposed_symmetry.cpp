@@ -37,26 +37,35 @@ void ImposedBrdf::eval_with_uncertainty(std::span<const Direction> wi, std::span
                                         std::span<double> u, std::span<Coverage> coverage) const {
   const Symmetry own = brdf_->symmetry();
   const std::size_t channels = brdf_->channels().size();
+  // The pairs and their partners, those of pair k from first[k] on.
   std::vector<Direction> in, out;
-  std::vector<double> values, uncertainties;
-  std::vector<Coverage> how;
+  std::vector<std::size_t> first;
   for (std::size_t k = 0; k < wi.size(); ++k) {
-    in.assign(1, wi[k]), out.assign(1, wo[k]);
+    const std::size_t begin = in.size();
+    first.push_back(begin);
+    in.push_back(wi[k]), out.push_back(wo[k]);
     if (imposed_.reciprocal && !own.reciprocal && wo[k].z() > 0) in.push_back(wo[k]), out.push_back(wi[k]);
     if (imposed_.bilateral && !own.bilateral)
-      for (std::size_t p = 0, n = in.size(); p < n; ++p) in.push_back(mirrored(in[p])), out.push_back(mirrored(out[p]));
+      for (std::size_t p = begin, end = in.size(); p < end; ++p) in.push_back(mirrored(in[p])), out.push_back(mirrored(out[p]));
     if (imposed_.isotropic && !own.isotropic)
-      for (std::size_t p = 0, n = in.size(); p < n; ++p)
+      for (std::size_t p = begin, end = in.size(); p < end; ++p)
         for (int turn = 1; turn < turns; ++turn) {
           const Angle by = degrees(360.0 * turn / turns);
           in.push_back(turned(in[p], by)), out.push_back(turned(out[p], by));
         }
-    const std::size_t n = in.size();
-    values.assign(n * channels, nan), uncertainties.assign(n * channels, nan), how.assign(n, Coverage::interpolated);
-    if (uncertain_)
-      uncertain_->eval_with_uncertainty(in, out, values, uncertainties, how);
-    else
-      brdf_->eval(in, out, values);
+  }
+  first.push_back(in.size());
+  std::vector<double> all_values(in.size() * channels, nan), all_uncertainties(in.size() * channels, nan);
+  std::vector<Coverage> all_how(in.size(), Coverage::interpolated);
+  if (uncertain_)
+    uncertain_->eval_with_uncertainty(in, out, all_values, all_uncertainties, all_how);
+  else
+    brdf_->eval(in, out, all_values);
+  for (std::size_t k = 0; k < wi.size(); ++k) {
+    const std::size_t n = first[k + 1] - first[k];
+    const auto values = std::span(all_values).subspan(first[k] * channels, n * channels);
+    const auto uncertainties = std::span(all_uncertainties).subspan(first[k] * channels, n * channels);
+    const auto how = std::span(all_how).subspan(first[k], n);
     coverage[k] = Coverage::unknown;
     for (std::size_t c = 0; c < channels; ++c) {
       // Below the horizon coverage is unknown and f is 0: every partner is there, and all of them count.

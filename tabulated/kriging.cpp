@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "tabulated/multiversion.hpp"
+
 namespace gonio::tabulated {
 namespace {
 
@@ -22,16 +24,19 @@ void factor(std::vector<double>& matrix, std::size_t n) {
     }
 }
 
-/// Solves L Lᵀ x = x in place.
-void solve(const std::vector<double>& lower, std::size_t n, std::vector<double>& x) {
-  for (std::size_t row = 0; row < n; ++row) {
-    for (std::size_t k = 0; k < row; ++k) x[row] -= lower[row * n + k] * x[k];
-    x[row] /= lower[row * n + row];
-  }
-  for (std::size_t row = n; row-- > 0;) {
-    for (std::size_t k = row + 1; k < n; ++k) x[row] -= lower[k * n + row] * x[k];
-    x[row] /= lower[row * n + row];
-  }
+/// The inverse of L L', whole, from the lower triangle of L.
+std::vector<double> inverse_of(const std::vector<double>& lower, std::size_t n) {
+  std::vector<double> of_lower(n * n, 0.0), out(n * n, 0.0);
+  for (std::size_t column = 0; column < n; ++column)
+    for (std::size_t row = column; row < n; ++row) {
+      double sum = row == column ? 1 : 0;
+      for (std::size_t k = column; k < row; ++k) sum -= lower[row * n + k] * of_lower[k * n + column];
+      of_lower[row * n + column] = sum / lower[row * n + row];
+    }
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t row = 0; row <= k; ++row)
+      for (std::size_t column = 0; column <= k; ++column) out[row * n + column] += of_lower[k * n + row] * of_lower[k * n + column];
+  return out;
 }
 
 }  // namespace
@@ -43,27 +48,55 @@ double matern_correlation(const PairPoint& a, const PairPoint& b, const Correlat
   return (1 + d) * std::exp(-d);
 }
 
-void ordinary_kriging(const PairPoint& at, std::span<const PairPoint> points, const CorrelationRanges& ranges, KrigingWeights& out) {
-  const std::size_t n = points.size();
-  thread_local std::vector<double> matrix, to_place, of_place, of_mean;
-  matrix.resize(n * n);
-  to_place.resize(n);
+KrigingSystem::KrigingSystem(std::span<const PairPoint> points, const CorrelationRanges& ranges)
+    : size_(points.size()),
+      scale_{std::numbers::sqrt3 / ranges.s, std::numbers::sqrt3 / ranges.s, std::numbers::sqrt3 / ranges.t,
+             std::numbers::sqrt3 / ranges.t},
+      coordinates_(4 * points.size()) {
+  const std::size_t n = size_;
+  std::vector<double> matrix(n * n);
   for (std::size_t row = 0; row < n; ++row) {
     for (std::size_t column = 0; column < row; ++column) matrix[row * n + column] = matern_correlation(points[row], points[column], ranges);
     matrix[row * n + row] = 1 + jitter;
-    to_place[row] = matern_correlation(at, points[row], ranges);
+    for (std::size_t axis = 0; axis < 4; ++axis) coordinates_[axis * n + row] = points[row][axis] * scale_[axis];
   }
   factor(matrix, n);
-  of_place = to_place;
-  of_mean.assign(n, 1.0);
-  solve(matrix, n, of_place);
-  solve(matrix, n, of_mean);
-  double place_sum = 0, mean_sum = 0, explained = 0;
-  for (std::size_t k = 0; k < n; ++k) place_sum += of_place[k], mean_sum += of_mean[k], explained += to_place[k] * of_place[k];
-  const double missing = (1 - place_sum) / mean_sum;
-  out.weight.resize(n);
-  for (std::size_t k = 0; k < n; ++k) out.weight[k] = of_place[k] + missing * of_mean[k];
-  out.variance = std::max(0.0, 1 - explained + missing * missing * mean_sum);
+  inverse_ = inverse_of(matrix, n);
+  of_mean_.assign(n, 0.0);
+  for (std::size_t row = 0; row < n; ++row)
+    for (std::size_t column = 0; column < n; ++column) of_mean_[row] += inverse_[row * n + column];
+  for (const double part : of_mean_) mean_sum_ += part;
+}
+
+GONIO_MULTIVERSION void KrigingSystem::weights_at(const PairPoint& at, KrigingWeights& out) const {
+  const std::size_t n = size_;
+  thread_local std::vector<double> to_place;
+  to_place.resize(n);
+  out.weight.assign(n, 0.0);
+  double* const c = to_place.data();
+  double* const weight = out.weight.data();
+  for (std::size_t k = 0; k < n; ++k) {
+    double squared = 0;
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+      const double d = at[axis] * scale_[axis] - coordinates_[axis * n + k];
+      squared += d * d;
+    }
+    c[k] = std::sqrt(squared);
+  }
+  for (std::size_t k = 0; k < n; ++k) c[k] = (1 + c[k]) * std::exp(-c[k]);
+  for (std::size_t row = 0; row < n; ++row) {
+    const double* const inverse = inverse_.data() + row * n;
+    for (std::size_t k = 0; k < n; ++k) weight[k] += inverse[k] * c[row];
+  }
+  double sum = 0, explained = 0;
+  for (std::size_t k = 0; k < n; ++k) sum += weight[k], explained += c[k] * weight[k];
+  const double missing = (1 - sum) / mean_sum_;
+  for (std::size_t k = 0; k < n; ++k) weight[k] += missing * of_mean_[k];
+  out.variance = std::max(0.0, 1 - explained + missing * missing * mean_sum_);
+}
+
+void ordinary_kriging(const PairPoint& at, std::span<const PairPoint> points, const CorrelationRanges& ranges, KrigingWeights& out) {
+  KrigingSystem(points, ranges).weights_at(at, out);
 }
 
 }  // namespace gonio::tabulated

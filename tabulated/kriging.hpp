@@ -2,6 +2,7 @@
 // Weights of samples around a place, and how far a value there may be from what they give.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,24 @@ struct KrigingWeights {
 
 /// Ordinary kriging (G. Matheron, "Principles of geostatistics", Economic Geology 58, 1963): the weighted mean with the smallest variance
 /// of its error for a field of unknown mean. No nugget: at a point the weights are that point's alone, and the variance is 0.
-/// Points must be distinct; at least one. `out` is overwritten.
+/// Factored once for its points, which must be distinct, at least one; then weights for any number of places.
+class KrigingSystem {
+ public:
+  KrigingSystem() = default;
+  KrigingSystem(std::span<const PairPoint> points, const CorrelationRanges& ranges);
+  /// `out` is overwritten. Safe from several threads.
+  void weights_at(const PairPoint& at, KrigingWeights& out) const;
+
+ private:
+  std::size_t size_ = 0;
+  PairPoint scale_{};                ///< of the axes: distances become arguments of the correlation
+  std::vector<double> coordinates_;  ///< [axis][point] scaled
+  std::vector<double> inverse_;      ///< [row][column] of the matrix of correlations
+  std::vector<double> of_mean_;      ///< inverse times 1
+  double mean_sum_ = 0;              ///< 1 times inverse times 1
+};
+
+/// The same once. `out` is overwritten.
 void ordinary_kriging(const PairPoint& at, std::span<const PairPoint> points, const CorrelationRanges& ranges, KrigingWeights& out);
 
 }  // namespace gonio::tabulated

@@ -21,8 +21,8 @@ namespace {
 /// Two rules that agree to a thousandth: the finer one is far closer, and Radiance itself shakes values by 3e-4.
 constexpr double settled = 1e-3;
 
-/// Points a dimension at least where a lobe may be: a narrower one hides between the points of coarser rules. Samples have no lobes
-/// narrower than their distances.
+/// Points a dimension at least where a lobe may be: a narrower one hides between the points of coarser rules. Samples may
+/// have theirs anywhere.
 constexpr std::size_t first_order = 2, first_order_at_lobes = 4, first_order_of_samples = 3;
 
 /// The directions of a patch: u and v of [0, 1] cut it into parts of equal projected solid angle.
@@ -83,13 +83,13 @@ class MatrixWriter {
 
   /// More points where the mirror or the retro direction may lie in the patch or beside it.
   std::size_t order(std::size_t in, std::size_t to) const {
-    if (source_.dataset) return first_order_of_samples;
     const Direction mirror = Direction::spherical(basis_.centre_theta(in), basis_.centre_phi(in));
     const Direction retro = Direction::trusted(-mirror.x(), -mirror.y(), mirror.z());
     const Direction wo = Direction::spherical(basis_.centre_theta(to), basis_.centre_phi(to));
     const double reach = radius_deg(in) + radius_deg(to);
     const double nearest = std::min(angle_between(mirror, wo).degrees(), angle_between(retro, wo).degrees());
-    return nearest <= reach ? first_order_at_lobes : first_order;
+    if (nearest <= reach) return first_order_at_lobes;
+    return source_.dataset ? first_order_of_samples : first_order;
   }
 
   /// Of a circle about the centre that holds the patch.

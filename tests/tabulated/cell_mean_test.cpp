@@ -67,3 +67,43 @@ TEST_CASE("Points without a value are left out; a cell without any is unknown") 
   CHECK(notes.n_unknown == 4 + 32);
   CHECK_FALSE(mean_of([](double) { return std::numeric_limits<double>::quiet_NaN(); }, {2, 4}, notes).known);
 }
+
+TEST_CASE("A mean is settled when its error is small beside its uncertainty, and no sooner") {
+  // A kink of 2 %, with an uncertainty of 10 %, of 0.1 %, and of none.
+  class Kinked final : public UncertainBrdf {
+   public:
+    explicit Kinked(double u) : u_(u), channels_(single_channel("value")) {}
+    const Channels& channels() const override { return channels_; }
+    Symmetry symmetry() const override { return {}; }
+    void eval(std::span<const Direction> wi, std::span<const Direction>, std::span<double> f) const override {
+      for (std::size_t k = 0; k < wi.size(); ++k) f[k] = wi[k].x() < 0.45 ? 1 : 1.02;
+    }
+    void eval_with_uncertainty(std::span<const Direction> wi, std::span<const Direction> wo, std::span<double> f, std::span<double> u,
+                               std::span<Coverage> coverage) const override {
+      eval(wi, wo, f);
+      std::fill(u.begin(), u.end(), u_);
+      std::fill(coverage.begin(), coverage.end(), Coverage::interpolated);
+    }
+
+   private:
+    double u_;
+    Channels channels_;
+  };
+  const auto nodes_for = [](double u) {
+    Opened source;
+    source.uncertain = std::make_shared<const Kinked>(u);
+    source.brdf = source.uncertain;
+    const ChannelMap map{source.brdf->channels(), {1}, ""};
+    ExportNotes notes;
+    CellMean(source, map, {2, 3, 4, 6, 8}, 1e-3)(
+        1,
+        [](std::span<const double> at) {
+          return DirectionPair{Direction::trusted(at[0], 0, std::sqrt(1 - at[0] * at[0])), Direction()};
+        },
+        2, notes);
+    return notes.n_nodes;
+  };
+  CHECK(nodes_for(0.1) == 2 + 3);
+  CHECK(nodes_for(0.001) > 2 + 3);
+  CHECK(nodes_for(0.001) == nodes_for(std::numeric_limits<double>::quiet_NaN()));
+}
