@@ -119,8 +119,18 @@ int export_verb(const Arguments& arguments, Console& console) {
   }
   if (!flags.merl_nodes.empty()) options.merl_nodes = merl_nodes_named(flags.merl_nodes);
   options.merl_values = merl_values_named(merl_values);
-  if (all.empty()) writable_format(to);  // refused before anything is read
   table_flags.imposed();
+  if (all.empty()) {
+    writable_format(to);  // refused before anything is read
+    const std::filesystem::path folder = std::filesystem::path(out).parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+      throw Error(ErrorKind::input, {"--out " + out, "no folder " + folder.string(), "a folder that exists"});
+  } else {
+    std::error_code failed;
+    std::filesystem::create_directories(all, failed);
+    if (failed || !std::filesystem::is_directory(all))
+      throw Error(ErrorKind::input, {"--all " + all, "no folder and none can be made", "a folder"});
+  }
   const tabulated::Opened opened = tabulated::open_brdf(in, flags.options());
   console.note_masked(in, opened.masked);
   TableReport table;
@@ -130,10 +140,6 @@ int export_verb(const Arguments& arguments, Console& console) {
     report(console, in, opened, table, export_file(writable_format(to), source, out, options, read_back));
     return 0;
   }
-  std::error_code failed;
-  std::filesystem::create_directories(all, failed);
-  if (failed || !std::filesystem::is_directory(all))
-    throw Error(ErrorKind::input, {"--all " + all, "no folder and none can be made", "a folder"});
   report_all(console, in, opened, table, all, export_all(source, all, std::filesystem::path(in).stem().string(), options));
   return 0;
 }

@@ -194,7 +194,7 @@ std::vector<std::string> beyond(const Opened& opened, const fitting::RefitData& 
   return out;
 }
 
-ExportNotes write_target(const targets::RenderTarget& target, const Opened& opened, const std::filesystem::path& path) {
+ExportNotes write_target(const targets::RenderTarget& target, const Opened& opened, const std::filesystem::path& path, bool with_scene) {
   if (!opened.brdf) throw Error(ErrorKind::input, {opened.format, "nothing that can be evaluated", "samples, a table or a model"});
   ExportNotes notes;
   const Channels& from = opened.brdf->channels();
@@ -247,15 +247,23 @@ ExportNotes write_target(const targets::RenderTarget& target, const Opened& open
   while (material.values.size() < 3) material.values.push_back(material.values.front());
   material.comments = {harmless(fmt::format("{} by gonio, re-fitted: {}", formula.name, formula.source)),
                        harmless("remaining error: " + errors_text(refit.errors)), harmless("roughness: " + std::string(formula.roughness))};
-  write_file_atomically(path, best->text(material));
+  const std::string text = best->text(material);
+  write_file_atomically(path, text);
   notes.files = {path};
+  if (with_scene && target.scene) {
+    std::filesystem::path scene = path;
+    scene.replace_extension(".scene" + path.extension().string());
+    write_file_atomically(scene, target.scene("", text));
+    notes.facts.emplace_back("scene", scene.filename().string());
+    notes.files.push_back(std::move(scene));
+  }
   return notes;
 }
 
 /// `Format` holds plain functions: one per place in the list of targets.
 template <std::size_t index>
-ExportNotes write_numbered(const Opened& opened, const std::filesystem::path& path, const tabulated::WriteOptions&) {
-  return write_target(targets::render_targets()[index], opened, path);
+ExportNotes write_numbered(const Opened& opened, const std::filesystem::path& path, const tabulated::WriteOptions& options) {
+  return write_target(targets::render_targets()[index], opened, path, options.scene);
 }
 
 constexpr std::size_t most_targets = 16;

@@ -31,8 +31,4 @@ ExportNotes write_radiance_klems_quarter(const Opened& source, const std::filesy
 ExportNotes write_radiance_tree3(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);
 ExportNotes write_radiance_tree4(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);
 
-/// A scene that shows the material of an exported XML on a sphere under a small bright source: text of a Radiance scene file that names
-/// the XML as `xml_name`. Made into an octree by oconv and rendered by rpict; see docs/formats.md.
-std::string radiance_scene(const std::string& xml_name);
-
 }  // namespace gonio::tabulated

@@ -104,17 +104,4 @@ void note_means(const RadianceMeans& means, const ChannelMap& map, ExportNotes& 
     notes.lost.push_back(fmt::format("energy: some light comes back {:.4g} times; Radiance takes the file and notes it", largest));
 }
 
-std::string radiance_scene(const std::string& xml_name) {
-  const std::string name = xml_name.find(' ') == std::string::npos ? xml_name : '"' + xml_name + '"';
-  return fmt::format(
-      "# The material of {0} on a sphere. oconv scene.rad > scene.oct\n"
-      "# rpict -vp 0 -4 0 -vd 0 1 0 -vu 0 0 1 -vh 35 -vv 35 -ab 1 -ss 4 scene.oct > scene.hdr\n\n"
-      "# Up is z: where the azimuth 0 of the BSDF matters, the surface is turned so that its y looks up.\n"
-      "void BSDF measured\n6 0 {0} 0 0 1 .\n0\n0\n\n"
-      "measured sphere ball\n0\n0\n4 0 0 0 1\n\n"
-      "void light lamp\n0\n0\n3 100 100 100\n\nlamp source sun\n0\n0\n4 -0.5 -0.7 0.6 5\n\n"
-      "void glow sky_glow\n0\n0\n4 0.2 0.2 0.2 0\n\nsky_glow source sky\n0\n0\n4 0 0 1 360\n",
-      name);
-}
-
 }  // namespace gonio::tabulated

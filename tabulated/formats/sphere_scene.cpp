@@ -6,7 +6,7 @@
 #include <string>
 
 #include "data-schemas/write_file.hpp"
-#include "tabulated/formats/radiance_xml.hpp"
+#include "tabulated/targets/sphere.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -30,54 +30,24 @@ std::string pbrt_escaped(const std::string& text) {
 }
 
 std::string mitsuba_scene(const std::string& file, bool spectral) {
-  return fmt::format(R"(<?xml version="1.0" encoding="utf-8"?>
-<!-- mitsuba -m {0} FILE.xml -->
-<scene version="3.0.0">
-  <integrator type="path"/>
-  <sensor type="perspective">
-    <float name="fov" value="28"/>
-    <transform name="to_world">
-      <lookat origin="0, -5, 0" target="0, 0, 0" up="0, 0, 1"/>
-    </transform>
-    <film type="hdrfilm">
-      <integer name="width" value="512"/>
-      <integer name="height" value="512"/>
-    </film>
-    <sampler type="independent">
-      <integer name="sample_count" value="64"/>
-    </sampler>
-  </sensor>
-  <emitter type="directional">
-    <vector name="direction" x="1" y="2" z="-2"/>
-    <rgb name="irradiance" value="3, 3, 3"/>
-  </emitter>
-  <emitter type="constant">
-    <rgb name="radiance" value="0.2, 0.2, 0.2"/>
-  </emitter>
-  <shape type="sphere">
-    <bsdf type="measured">
-      <string name="filename" value="{1}"/>
-    </bsdf>
-  </shape>
-</scene>
-)",
-                     spectral ? "scalar_spectral" : "scalar_rgb", xml_escaped(file));
+  return targets::mitsuba_sphere(fmt::format("  mitsuba -m {} FILE.xml\n", spectral ? "scalar_spectral" : "scalar_rgb"),
+                                 fmt::format("    <bsdf type=\"measured\" id=\"material\">\n"
+                                             "        <string name=\"filename\" value=\"{}\"/>\n"
+                                             "    </bsdf>\n",
+                                             xml_escaped(file)));
 }
 
 std::string pbrt_scene(const std::string& file, const std::string& image) {
-  return fmt::format(R"(# pbrt FILE.pbrt
-LookAt 0 -5 0  0 0 0  0 0 1
-Camera "perspective" "float fov" 28
-Sampler "zsobol" "integer pixelsamples" 64
-Integrator "path"
-Film "rgb" "integer xresolution" 512 "integer yresolution" 512 "string filename" "{1}"
-WorldBegin
-LightSource "distant" "point3 from" [ -1 -2 2 ] "point3 to" [ 0 0 0 ] "rgb L" [ 3 3 3 ]
-LightSource "infinite" "rgb L" [ 0.2 0.2 0.2 ]
-Material "measured" "string filename" "{0}"
-Shape "sphere" "float radius" 1
-)",
-                     pbrt_escaped(file), pbrt_escaped(image));
+  return targets::pbrt_sphere(
+      "# pbrt FILE.pbrt\n",
+      fmt::format("MakeNamedMaterial \"material\" \"string type\" \"measured\" \"string filename\" \"{}\"\n", pbrt_escaped(file)),
+      pbrt_escaped(image));
+}
+
+std::string radiance_scene(const std::string& file) {
+  const bool one_word = file.find(' ') == std::string::npos;
+  return targets::radiance_sphere("# Up is z: where the azimuth 0 of the BSDF matters, the surface is turned so that its y looks up.\n",
+                                  fmt::format("void BSDF material\n6 0 {0}{1}{0} 0 0 1 .\n0\n0\n", one_word ? "" : "\"", file));
 }
 
 }  // namespace

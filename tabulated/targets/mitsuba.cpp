@@ -3,6 +3,7 @@
 #include "tabulated/targets/coated_diffuse.hpp"
 #include "tabulated/targets/conductor_mix.hpp"
 #include "tabulated/targets/list.hpp"
+#include "tabulated/targets/sphere.hpp"
 
 namespace gonio::tabulated::targets {
 namespace {
@@ -127,40 +128,9 @@ std::string bsdf(const Material& m) {
 
 }  // namespace principled
 
-/// A sphere of the material under a small light and a weak sky.
 template <std::string (*bsdf)(const Material&)>
 std::string scene(const Material& m) {
-  return filled(R"(<?xml version="1.0" encoding="utf-8"?>
-<!--
-{{comments}}-->
-<scene version="3.0.0">
-    <integrator type="path"/>
-    <sensor type="perspective">
-        <float name="fov" value="30"/>
-        <transform name="to_world">
-            <lookat origin="0, -5, 0" target="0, 0, 0" up="0, 0, 1"/>
-        </transform>
-        <film type="hdrfilm">
-            <integer name="width" value="256"/>
-            <integer name="height" value="256"/>
-        </film>
-        <sampler type="independent">
-            <integer name="sample_count" value="64"/>
-        </sampler>
-    </sensor>
-    <emitter type="constant">
-        <rgb name="radiance" value="0.1, 0.1, 0.1"/>
-    </emitter>
-    <emitter type="directional">
-        <vector name="direction" x="1" y="2" z="-2"/>
-        <rgb name="irradiance" value="3.0, 3.0, 3.0"/>
-    </emitter>
-{{bsdf}}    <shape type="sphere">
-        <ref id="material"/>
-    </shape>
-</scene>
-)",
-                {{"comments", commented(m.comments, "  ")}, {"bsdf", bsdf(m)}});
+  return mitsuba_sphere(commented(m.comments, "  "), bsdf(m));
 }
 
 }  // namespace

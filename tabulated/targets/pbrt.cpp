@@ -3,6 +3,7 @@
 #include "tabulated/targets/coated_diffuse.hpp"
 #include "tabulated/targets/conductor_mix.hpp"
 #include "tabulated/targets/list.hpp"
+#include "tabulated/targets/sphere.hpp"
 
 namespace gonio::tabulated::targets {
 namespace {
@@ -69,21 +70,9 @@ MakeNamedMaterial "material" "string type" "mix"
 
 }  // namespace blend
 
-/// A sphere of the material under a distant light and a weak sky.
 template <std::string (*material)(const Material&)>
 std::string scene(const Material& m) {
-  return filled(R"({{comments}}LookAt 0 -5 0  0 0 0  0 0 1
-Camera "perspective" "float fov" [ 30 ]
-Sampler "independent" "integer pixelsamples" [ 64 ]
-Integrator "path"
-Film "rgb" "integer xresolution" [ 256 ] "integer yresolution" [ 256 ] "string filename" "sphere.exr"
-WorldBegin
-LightSource "infinite" "rgb L" [ 0.1 0.1 0.1 ]
-LightSource "distant" "point3 from" [ -1 -2 2 ] "point3 to" [ 0 0 0 ] "rgb L" [ 3 3 3 ]
-{{material}}NamedMaterial "material"
-Shape "sphere" "float radius" [ 1 ]
-)",
-                {{"comments", commented(m.comments, "# ")}, {"material", material(m)}});
+  return pbrt_sphere(commented(m.comments, "# "), material(m), "sphere.exr");
 }
 
 }  // namespace

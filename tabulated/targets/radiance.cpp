@@ -2,6 +2,7 @@
 // Radiance: WGMDfunc, which has Ward's lobe in any colour, and plastic or metal for programs that know only these.
 #include "tabulated/targets/list.hpp"
 #include "tabulated/targets/microfacet.hpp"
+#include "tabulated/targets/sphere.hpp"
 #include "tabulated/targets/starts.hpp"
 #include "tabulated/targets/ward_lobe.hpp"
 
@@ -109,7 +110,8 @@ RenderTarget radiance_target() {
              ward_starts,
              {shape}},
             wgmd_text}},
-          {"the long axis of an anisotropic lobe is in the plane of (1, 0, 0) and the normal, or across it"}};
+          {"the long axis of an anisotropic lobe is in the plane of (1, 0, 0) and the normal, or across it"},
+          radiance_sphere};
 }
 
 RenderTarget radiance_plastic_target() {
@@ -136,7 +138,8 @@ RenderTarget radiance_plastic_target() {
              starts<true>,
              {shape, "metal: diffuse part and lobe have the same colour"}},
             text<true>}},
-          {"the long axis of an anisotropic lobe is in the plane of (1, 0, 0) and the normal, or across it (plastic2, metal2)"}};
+          {"the long axis of an anisotropic lobe is in the plane of (1, 0, 0) and the normal, or across it (plastic2, metal2)"},
+          radiance_sphere};
 }
 
 }  // namespace gonio::tabulated::targets

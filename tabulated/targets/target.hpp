@@ -34,6 +34,8 @@ struct RenderTarget {
   const char* extension;                ///< dot included
   std::vector<Form> forms;              ///< a refit takes the one that comes nearest
   std::vector<std::string_view> notes;  ///< what a user of the file has to know
+  /// Where `text` is no scene by itself and one can be made of it: that scene.
+  std::string (*scene)(std::string_view comments, std::string_view text) = nullptr;
 };
 const std::vector<RenderTarget>& render_targets();
 

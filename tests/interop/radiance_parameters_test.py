@@ -74,5 +74,18 @@ class RadianceParameters(interop.TestCase):
     def test_plastic(self):
         self.check_against("radiance-plastic", "ward-duer-gm", rho_d=0.3, rho_s=0.05, alpha=0.15)
 
+    def test_the_scene_beside_the_material_is_rendered(self):
+        fit = self.fit("ward-duer-gm", rho_d=0.3, rho_s=0.05, alpha=0.15)
+        for target in ("radiance", "radiance-plastic"):
+            interop.gonio("export", fit, "--to", target, "--out", self.folder / f"{target}.rad", "--scene")
+            octree = self.folder / "scene.oct"
+            octree.write_bytes(self.compiled(self.folder / f"{target}.scene.rad"))
+            # From the camera past the ball, at its middle, and at its highlight.
+            rays = "0 -5 0 0.3 1 0\n0 -5 0 0 1 0\n0 -5 0 -0.045 1 0.08\n"
+            out = interop.run(self.program("rtrace"), "-h", "-ab", "1", "-faa", octree, stdin=rays)
+            sky, middle, highlight = (float(line.split()[1]) for line in out.splitlines() if line.strip())
+            self.check(abs(sky - 0.2) < 1e-6, f"{target}: a sky of {sky}")
+            self.check(0.05 < middle < highlight, f"{target}: {middle} in the middle, {highlight} in the highlight")
+
 
 interop.main()

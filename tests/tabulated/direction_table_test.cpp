@@ -46,9 +46,10 @@ TEST_CASE("Every measured direction gives its own value, turned too where the da
 }
 
 TEST_CASE("Bilateral data on one side of the plane of incidence are known on both") {
-  auto half = std::make_shared<Dataset>(*grid(true));
+  const auto whole = grid(true);
+  auto half = std::make_shared<Dataset>(*whole);
   half->angles.clear(), half->f[0].clear();
-  for (const GonioAngles& at : grid(true)->angles)
+  for (const GonioAngles& at : whole->angles)
     if (at.phi_o.degrees() <= 180) half->angles.push_back(at), half->f[0].push_back(model().eval(at)[0]);
   const Direction wi = Direction::spherical(35_deg, 0_deg), other = Direction::spherical(70_deg, 270_deg);
   CHECK(std::isnan(DirectionTable(half).eval(wi, other)[0]));

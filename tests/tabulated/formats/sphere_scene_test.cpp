@@ -24,9 +24,11 @@ TEST_CASE("A material file gets a scene for every renderer that loads it, with t
   CHECK(write_sphere_scenes("csv", folder / "paint.csv").empty());
 }
 
-TEST_CASE("Names with quotes and ampersands do not break a scene") {
+TEST_CASE("Names with quotes, ampersands and blanks do not break a scene") {
   const test::TemporaryFolder folder;
   write_sphere_scenes("rgl-spectral", folder / "a\"&b.bsdf");
   CHECK(test::read_file(folder / "a\"&b.xml").find("a&quot;&amp;b.bsdf") != std::string::npos);
   CHECK(test::read_file(folder / "a\"&b.pbrt").find("a\\\"&b.bsdf") != std::string::npos);
+  write_sphere_scenes("radiance-xml", folder / "a b.xml");
+  CHECK(test::read_file(folder / "a b.rad").find("6 0 \"a b.xml\" 0 0 1 .") != std::string::npos);
 }
