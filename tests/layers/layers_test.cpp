@@ -77,10 +77,11 @@ std::vector<Include> includes(const std::string& text) {
 
 /// C++, POSIX and glibc headers: no slash and no extension, or a C/POSIX name.
 bool is_standard(const std::string& name) {
-  static const std::set<std::string> posix{"unistd.h",      "fcntl.h",     "netdb.h",        "poll.h",       "pthread.h",  "signal.h",
-                                           "netinet/in.h",  "sys/mman.h",  "sys/stat.h",     "sys/socket.h", "sys/wait.h", "arpa/inet.h",
-                                           "netinet/tcp.h", "sys/types.h", "sys/resource.h", "sys/ioctl.h",  "sys/time.h", "sys/file.h",
-                                           "termios.h",     "sys/prctl.h", "sys/uio.h",      "spawn.h",      "malloc.h",   "math.h"};
+  static const std::set<std::string> posix{"unistd.h",       "fcntl.h",     "netdb.h",      "poll.h",        "pthread.h",
+                                           "signal.h",       "immintrin.h", "netinet/in.h", "sys/mman.h",    "sys/stat.h",
+                                           "sys/socket.h",   "sys/wait.h",  "arpa/inet.h",  "netinet/tcp.h", "sys/types.h",
+                                           "sys/resource.h", "sys/ioctl.h", "sys/time.h",   "sys/file.h",    "termios.h",
+                                           "sys/prctl.h",    "sys/uio.h",   "spawn.h",      "malloc.h",      "math.h"};
   return posix.contains(name) || name.find_first_of("./") == std::string::npos;
 }
 

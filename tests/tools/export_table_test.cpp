@@ -65,7 +65,7 @@ TEST_CASE("a table that interpolates by itself is not interpolated anew") {
   const test::TemporaryFolder folder;
   const std::string table = quoted(folder / "table.ssdd"), again = quoted(folder / "again.mbsdf");
   exported(quoted(samples_in(folder)) + " --to ssdd --size paper --guide blinn-phong --out " + table);
-  const Json& guides = exported(table + " --to mbsdf --size paper --out " + again).at("table");
+  const Json guides = exported(table + " --to mbsdf --size paper --out " + again).at("table");
   CHECK((guides.is_null() || guides.at("guides").size() == 0));
   const std::string at = "30 0 40 170\n";
   CHECK(std::stod(run_gonio("eval " + again, at).out) == Approx(std::stod(run_gonio("eval " + table, at).out)).epsilon(0.02));
