@@ -83,19 +83,26 @@ double MarginalWarp::integral(const float* density, std::size_t rows, std::size_
 }
 
 MarginalWarp::MarginalWarp(std::vector<float> density, std::size_t rows, std::size_t columns)
-    : rows_(rows), columns_(columns), nodes_(density.size()), row_sums_(density.size() / columns) {
-  const std::size_t size = rows * columns, slices = density.size() / size;
-  for (std::size_t slice = 0; slice < slices; ++slice) {
-    const float* values = density.data() + slice * size;
+    : slices_(density.size() / (rows * columns)),
+      rows_(rows),
+      columns_(columns),
+      nodes_(density.size()),
+      row_sums_(slices_ * rows),
+      scale_(slices_) {
+  for (std::size_t slice = 0; slice < slices_; ++slice) {
+    const float* values = density.data() + slice * rows * columns;
     const double scale = 1 / integral(values, rows, columns);
-    scale_.push_back(scale);
-    Node* node = nodes_.data() + slice * size;
+    scale_[slice] = scale;
+    Node* node = nodes_.data() + slice;
     Row* sums = row_sums_.data() + slice * rows;
-    for (std::size_t row = 0; row < rows; ++row, node += columns, values += columns) {
-      node[0] = {0, values[0]};
-      for (std::size_t k = 1; k < columns; ++k)
-        node[k] = {node[k - 1].before + 0.5 * scale * (static_cast<double>(values[k - 1]) + static_cast<double>(values[k])), values[k]};
-      sums[row].whole = node[columns - 1].before;
+    for (std::size_t row = 0; row < rows; ++row, values += columns) {
+      double before = 0;
+      for (std::size_t k = 0; k < columns; ++k, node += slices_) {
+        const float next = k + 1 < columns ? values[k + 1] : 0;
+        *node = {before, values[k], next};
+        if (k + 1 < columns) before += 0.5 * scale * (static_cast<double>(values[k]) + static_cast<double>(next));
+      }
+      sums[row].whole = before;
       sums[row].before = row == 0 ? 0 : sums[row - 1].before + 0.5 * (sums[row - 1].whole + sums[row].whole);
     }
   }
@@ -103,44 +110,47 @@ MarginalWarp::MarginalWarp(std::vector<float> density, std::size_t rows, std::si
 
 std::vector<float> MarginalWarp::density() const {
   std::vector<float> out;
-  for (const Node& node : nodes_) out.push_back(node.density);
+  out.reserve(nodes_.size());
+  for (std::size_t slice = 0; slice < slices_; ++slice)
+    for (std::size_t node = slice; node < nodes_.size(); node += slices_) out.push_back(nodes_[node].density);
+  return out;
+}
+
+inline UnitPoint MarginalWarp::inverted(const SliceWeights& slices, std::size_t row, std::size_t node, double y, double x) const noexcept {
+  // The densities at both ends of the cell, or the integrals of both rows.
+  typedef double Two __attribute__((vector_size(16)));
+  Two density{}, whole{};
+  double before = 0, rows_before = 0;
+  for (std::size_t k = 0; k < slices.slice.size(); ++k) {
+    const double weight = slices.weight[k];
+    if (weight == 0) continue;
+    const std::size_t slice = slices.slice[k];
+    const Row* const rows = row_sums_.data() + slice * rows_ + row;
+    const Node *const low = nodes_.data() + node * slices_ + slice, *const high = low + columns_ * slices_;
+    const double of_high = weight * y, of_low = weight - of_high, scale = scale_[slice];
+    const auto both = [](const Node* of) { return Two{static_cast<double>(of->density), static_cast<double>(of->next)}; };
+    density += of_low * scale * both(low) + of_high * scale * both(high);
+    before += of_low * low->before + of_high * high->before;
+    whole += weight * Two{rows[0].whole, rows[1].whole};
+    rows_before += weight * rows[0].before;
+  }
+  const double in_row = mixed(whole[0], whole[1], y);
+  UnitPoint out;
+  out.x = in_row > 0 ? (before + integral_to(x, density[0], density[1])) / in_row : std::numeric_limits<double>::quiet_NaN();
+  out.y = rows_before + integral_to(y, whole[0], whole[1]);
   return out;
 }
 
 UnitPoint MarginalWarp::invert(const SliceWeights& slices, UnitPoint at) const noexcept {
   const Cell x = cell_of(at.x, columns_), y = cell_of(at.y, rows_);
-  double density[2][2]{}, before[2]{}, whole[2]{}, rows_before = 0;
-  for (std::size_t k = 0; k < slices.slice.size(); ++k) {
-    const double weight = slices.weight[k];
-    if (weight == 0) continue;
-    const std::size_t slice = slices.slice[k], row = slice * rows_ + y.low;
-    rows_before += weight * row_sums_[row].before;
-    const double scaled = weight * scale_[slice];
-    for (std::size_t j = 0; j < 2; ++j) {
-      const Node* node = nodes_.data() + (row + j) * columns_ + x.low;
-      before[j] += weight * node->before;
-      whole[j] += weight * row_sums_[row + j].whole;
-      density[j][0] += scaled * static_cast<double>(node[0].density);
-      density[j][1] += scaled * static_cast<double>(node[1].density);
-    }
-  }
-  const double first = mixed(density[0][0], density[1][0], y.part), last = mixed(density[0][1], density[1][1], y.part);
-  const double in_row = mixed(whole[0], whole[1], y.part);
-  UnitPoint out;
-  out.x = in_row > 0 ? (mixed(before[0], before[1], y.part) + integral_to(x.part, first, last)) / in_row
-                     : std::numeric_limits<double>::quiet_NaN();
-  out.y = rows_before + integral_to(y.part, whole[0], whole[1]);
-  return out;
+  return inverted(slices, y.low, y.low * columns_ + x.low, y.part, x.part);
 }
 
-void MarginalWarp::prefetch(const SliceWeights& slices, UnitPoint at) const noexcept {
-  const Cell x = cell_of(at.x, columns_), y = cell_of(at.y, rows_);
-  for (std::size_t k = 0; k < slices.slice.size(); ++k) {
-    if (slices.weight[k] == 0) continue;
-    const std::size_t row = slices.slice[k] * rows_ + y.low;
-    __builtin_prefetch(&row_sums_[row]);
-    __builtin_prefetch(&nodes_[row * columns_ + x.low]);
-    __builtin_prefetch(&nodes_[(row + 1) * columns_ + x.low]);
+void MarginalWarp::invert(const SliceWeights* slices, const SquareCells& cells, std::size_t count, SquareColumn& y,
+                          SquareColumn& x) const noexcept {
+  for (std::size_t k = 0; k < count; ++k) {
+    const UnitPoint to = inverted(slices[k], cells.row[k], cells.node[k], cells.y[k], cells.x[k]);
+    y[k] = to.y, x[k] = to.x;
   }
 }
 
@@ -150,15 +160,15 @@ UnitPoint MarginalWarp::sample(std::size_t slice, UnitPoint uniform) const noexc
 
   const Row* sums = row_sums_.data() + slice * rows_;
   const std::size_t row = cell_reaching(rows_, across, [&](std::size_t k) { return sums[k].before; });
-  const Node* low = nodes_.data() + (slice * rows_ + row) * columns_;
-  const Node* high = low + columns_;
+  const Node* low = nodes_.data() + row * columns_ * slices_ + slice;
+  const Node* high = low + columns_ * slices_;
   const double y = part_at(across - sums[row].before, sums[row].whole, sums[row + 1].whole);
 
-  const auto reached = [&](std::size_t k) { return mixed(low[k].before, high[k].before, y); };
+  const auto reached = [&](std::size_t k) { return mixed(low[k * slices_].before, high[k * slices_].before, y); };
   const double amount = along * reached(columns_ - 1);
   const std::size_t column = cell_reaching(columns_, amount, reached);
   const auto density = [&](std::size_t k) {
-    return scale_[slice] * mixed(static_cast<double>(low[k].density), static_cast<double>(high[k].density), y);
+    return scale_[slice] * mixed(static_cast<double>(low[k * slices_].density), static_cast<double>(high[k * slices_].density), y);
   };
   const double x = part_at(amount - reached(column), density(column), density(column + 1));
   return {(static_cast<double>(column) + x) / static_cast<double>(columns_ - 1),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tabulated/large_array.hpp"
+#include "tabulated/square_cells.hpp"
 
 namespace gonio::tabulated {
 
@@ -46,8 +47,16 @@ class MarginalWarp {
 
   /// Where a point goes under the map that makes the density uniform. NaN in x where the whole row has no density: nothing was there.
   UnitPoint invert(const SliceWeights& slices, UnitPoint at) const noexcept;
+  /// The same for the first `count` points, which lie in these cells of the grid.
+  void invert(const SliceWeights* slices, const SquareCells& cells, std::size_t count, SquareColumn& y, SquareColumn& x) const noexcept;
   /// Begins to bring what `invert` will need from memory.
-  void prefetch(const SliceWeights& slices, UnitPoint at) const noexcept;
+  void prefetch(const SliceWeights& slices, std::size_t node) const noexcept {
+    for (std::size_t k = 0; k < slices.slice.size(); ++k) {
+      if (slices.weight[k] == 0) continue;
+      __builtin_prefetch(nodes_.data() + node * slices_ + slices.slice[k]);
+      __builtin_prefetch(nodes_.data() + (node + columns_) * slices_ + slices.slice[k]);
+    }
+  }
   /// The inverse of `invert` in one slice. Points are drawn in from the border by 6e-8, as those who write such files do.
   UnitPoint sample(std::size_t slice, UnitPoint uniform) const noexcept;
 
@@ -59,14 +68,17 @@ class MarginalWarp {
   struct Node {
     double before;  ///< integral along the row up to the node, normalised
     float density;  ///< as given
+    float next;     ///< density of the next node of the row; 0 after the last
   };
   struct Row {
     double before;  ///< integral of the rows up to this one, normalised
     double whole;   ///< integral of the row, normalised
   };
 
-  std::size_t rows_ = 0, columns_ = 0;
-  LargeArray<Node> nodes_;     ///< [slice][row][column]
+  UnitPoint inverted(const SliceWeights& slices, std::size_t row, std::size_t node, double y, double x) const noexcept;
+
+  std::size_t slices_ = 0, rows_ = 0, columns_ = 0;
+  LargeArray<Node> nodes_;     ///< [row][column][slice]: a look-up mixes neighbouring slices
   std::vector<Row> row_sums_;  ///< [slice][row]
   std::vector<double> scale_;  ///< [slice] 1/integral
 };

@@ -5,21 +5,22 @@
 #include <array>
 #include <cstddef>
 
+#include "tabulated/square_cells.hpp"
+
 namespace gonio::tabulated {
 
 /// Pairs that are looked up together, coordinate by coordinate.
 struct RglPairs {
-  static constexpr std::size_t most = 64;
-  using Numbers = std::array<double, most>;
+  static constexpr std::size_t most = square_batch;
+  using Numbers = SquareColumn;
 
   std::size_t count = 0;
   Numbers ix, iy, iz, ox, oy, oz;  ///< unit vectors above the horizon
 
   Numbers theta_i;  ///< radians
   Numbers turn_i;   ///< azimuth of wi in whole turns, from -1/2 to 1/2
-  Numbers incident_x;
-  /// Half vector on the unit square: x = sqrt(2 theta / pi), y its azimuth in whole turns plus 1/2, in [0, 1).
-  Numbers half_x, half_y;
+  /// On the unit square: x = sqrt(2 theta / pi), y the azimuth in whole turns plus 1/2, in [0, 1).
+  Numbers incident_x, incident_y, half_x, half_y;
 };
 
 /// Fills the coordinates from the directions. With `relative` the azimuth of the half vector counts from that of wi. Polynomials of

@@ -31,27 +31,6 @@ DirectionPair folded(const Direction& wi, const Direction& wo, int turns, double
   return {Direction::trusted(x * wi.x(), y * wi.y(), wi.z()), Direction::trusted(x * wo.x(), y * wo.y(), wo.z())};
 }
 
-/// The four nodes around a point of a grid: the first of them and their weights.
-struct Corners {
-  Corners() = default;
-  /// Weights of NaN for a point that is not known.
-  Corners(UnitPoint at, std::size_t rows, std::size_t columns) {
-    const auto cell = [](double coordinate, std::size_t nodes, std::size_t& first) {
-      if (std::isnan(coordinate)) return coordinate;
-      const double scaled = std::clamp(coordinate, 0.0, 1.0) * static_cast<double>(nodes - 1);
-      first = std::min(static_cast<std::size_t>(scaled), nodes - 2);
-      return scaled - static_cast<double>(first);
-    };
-    std::size_t row = 0, column = 0;
-    const double y = cell(at.y, rows, row), x = cell(at.x, columns, column);
-    low = row * columns + column;
-    weight[0] = (1 - y) * (1 - x), weight[1] = (1 - y) * x, weight[2] = y * (1 - x), weight[3] = y * x;
-  }
-
-  std::size_t low = 0;
-  double weight[4] = {};
-};
-
 /// Blocks of rows x columns numbers, each with its columns as rows.
 template <class Out, class In>
 Out transposed(const In& values, std::size_t rows, std::size_t columns) {
@@ -98,63 +77,84 @@ UnitPoint RglTable::unit_point(double theta, double phi) const noexcept {
   return {std::sqrt(theta * 2 / pi), wrapped((phi + pi) / (2 * pi))};
 }
 
-SliceWeights RglTable::slices_at(double theta_i, double phi_i) const noexcept {
+void RglTable::find_slices(double theta_i, double phi_i, SliceWeights& out) const noexcept {
   const Neighbours t = neighbours_in(arrays_.theta_i, theta_i);
-  const Neighbours p = arrays_.phi_i.size() == 1 ? Neighbours{} : neighbours_in(arrays_.phi_i, phi_i);
+  if (arrays_.phi_i.size() == 1) {
+    out = {{t.low, t.high, 0, 0}, {1 - t.weight, t.weight, 0, 0}};
+    return;
+  }
+  const Neighbours p = neighbours_in(arrays_.phi_i, phi_i);
   const std::size_t count = arrays_.theta_i.size();
-  return {{p.low * count + t.low, p.low * count + t.high, p.high * count + t.low, p.high * count + t.high},
-          {(1 - p.weight) * (1 - t.weight), (1 - p.weight) * t.weight, p.weight * (1 - t.weight), p.weight * t.weight}};
+  out = {{p.low * count + t.low, p.low * count + t.high, p.high * count + t.low, p.high * count + t.high},
+         {(1 - p.weight) * (1 - t.weight), (1 - p.weight) * t.weight, p.weight * (1 - t.weight), p.weight * t.weight}};
+}
+
+/// ndf(m) / (4 sigma(wi) cos theta_o), by which interpolated values are to be multiplied.
+void RglTable::find_factors(const RglPairs& pairs, SquareColumn& out) const noexcept {
+  const std::size_t columns = arrays_.angle_columns;
+  const auto between = [columns](const std::vector<float>& values, const SquareCells& cells, std::size_t k) {
+    const float *const low = values.data() + cells.node[k], *const high = low + columns;
+    const double x = cells.x[k], y = cells.y[k];
+    const double first = (1 - y) * static_cast<double>(low[0]) + y * static_cast<double>(high[0]);
+    const double last = (1 - y) * static_cast<double>(low[1]) + y * static_cast<double>(high[1]);
+    return (1 - x) * first + x * last;
+  };
+  SquareCells half, incident;
+  find_square_cells(pairs.half_y, pairs.half_x, pairs.count, arrays_.angle_rows, columns, half);
+  find_square_cells(pairs.incident_y, pairs.incident_x, pairs.count, arrays_.angle_rows, columns, incident);
+  for (std::size_t k = 0; k < pairs.count; ++k)
+    out[k] = between(arrays_.ndf, half, k) / (4 * between(arrays_.sigma, incident, k) * pairs.oz[k]);
 }
 
 template <class Place>
 void RglTable::look_up(RglPairs& pairs, Place&& place) const {
-  const std::size_t channel_count = arrays_.channels.size(), columns = arrays_.value_columns, rows = arrays_.value_rows;
+  const std::size_t channels = arrays_.channels.size(), columns = arrays_.value_columns, plane = arrays_.value_rows * columns;
   const bool isotropic = is_isotropic(arrays_.phi_i);
-  find_coordinates(pairs, isotropic);
   // In steps over all pairs, so that the memory one pair waits for comes while others are worked on.
+  find_coordinates(pairs, isotropic);
+  SquareCells half, value;
+  find_square_cells(pairs.half_y, pairs.half_x, pairs.count, arrays_.vndf_rows, arrays_.vndf_columns, half);
   std::array<SliceWeights, RglPairs::most> slices;
   for (std::size_t k = 0; k < pairs.count; ++k) {
     const double azimuth = 2 * pi * pairs.turn_i[k];
-    slices[k] = slices_at(pairs.theta_i[k], isotropic ? azimuth : from(static_cast<double>(arrays_.phi_i.front()), azimuth));
-    vndf_.prefetch(slices[k], {pairs.half_x[k], pairs.half_y[k]});
+    find_slices(pairs.theta_i[k], isotropic ? azimuth : from(static_cast<double>(arrays_.phi_i.front()), azimuth), slices[k]);
+    vndf_.prefetch(slices[k], half.node[k]);
   }
-  const auto between = [&](const std::vector<float>& values, UnitPoint at) {
-    const Corners around(at, arrays_.angle_rows, arrays_.angle_columns);
-    const float *low = values.data() + around.low, *high = low + arrays_.angle_columns;
-    return around.weight[0] * static_cast<double>(low[0]) + around.weight[1] * static_cast<double>(low[1]) +
-           around.weight[2] * static_cast<double>(high[0]) + around.weight[3] * static_cast<double>(high[1]);
+  SquareColumn factor, y, x;
+  find_factors(pairs, factor);
+  vndf_.invert(slices.data(), half, pairs.count, y, x);
+  find_square_cells(y, x, pairs.count, arrays_.value_rows, columns, value);
+
+  const auto first_value = [&](std::size_t k, std::size_t n) {
+    return values_.data() + (slices[k].slice[n] * plane + value.node[k]) * channels;
   };
-  std::array<Corners, RglPairs::most> corners;
-  for (std::size_t k = 0; k < pairs.count; ++k) {
-    const UnitPoint s = vndf_.invert(slices[k], {pairs.half_x[k], pairs.half_y[k]});
-    corners[k] = Corners(s, rows, columns);
+  for (std::size_t k = 0; k < pairs.count; ++k)
     for (std::size_t n = 0; n < slices[k].slice.size(); ++n) {
       if (slices[k].weight[n] == 0) continue;
-      const float* low = values_.data() + (slices[k].slice[n] * rows * columns + corners[k].low) * channel_count;
-      __builtin_prefetch(low);
-      __builtin_prefetch(low + columns * channel_count);
+      __builtin_prefetch(first_value(k, n));
+      __builtin_prefetch(first_value(k, n) + columns * channels);
     }
-  }
-  for (std::size_t k = 0; k < pairs.count; ++k) {
-    const UnitPoint m{pairs.half_x[k], pairs.half_y[k]}, i{pairs.incident_x[k], wrapped(pairs.turn_i[k] + 0.5)};
-    const double factor = between(arrays_.ndf, m) / (4 * between(arrays_.sigma, i) * pairs.oz[k]);
-    double* const out = place(k);
+  const auto interpolate = [&](std::size_t k, auto count, auto& sum) {
     for (std::size_t n = 0; n < slices[k].slice.size(); ++n) {
       if (slices[k].weight[n] == 0) continue;
-      const float* low = values_.data() + (slices[k].slice[n] * rows * columns + corners[k].low) * channel_count;
-      const float* high = low + columns * channel_count;
-      const double scaled = factor * slices[k].weight[n];
-      const double w00 = scaled * corners[k].weight[0], w01 = scaled * corners[k].weight[1];
-      const double w10 = scaled * corners[k].weight[2], w11 = scaled * corners[k].weight[3];
-      const auto add = [&](auto count) {
-        for (std::size_t c = 0; c < count; ++c)
-          out[c] += w00 * static_cast<double>(low[c]) + w01 * static_cast<double>(low[count + c]) + w10 * static_cast<double>(high[c]) +
-                    w11 * static_cast<double>(high[count + c]);
-      };
-      if (channel_count == 3)
-        add(std::integral_constant<std::size_t, 3>{});  // a loop that the compiler unrolls
-      else
-        add(channel_count);
+      const float *const low = first_value(k, n), *const high = low + columns * channels;
+      const double scaled = factor[k] * slices[k].weight[n];
+      const double of_high = scaled * value.y[k], w11 = of_high * value.x[k], w10 = of_high - w11;
+      const double of_low = scaled - of_high, w01 = of_low * value.x[k], w00 = of_low - w01;
+      for (std::size_t c = 0; c < count; ++c)
+        sum[c] += w00 * static_cast<double>(low[c]) + w01 * static_cast<double>(low[count + c]) + w10 * static_cast<double>(high[c]) +
+                  w11 * static_cast<double>(high[count + c]);
+    }
+  };
+  for (std::size_t k = 0; k < pairs.count; ++k) {
+    double* const out = place(k);
+    if (channels == 3) {
+      double rgb[3] = {};
+      interpolate(k, std::integral_constant<std::size_t, 3>{}, rgb);  // loops that the compiler unrolls
+      std::copy_n(rgb, 3, out);
+    } else {
+      std::fill_n(out, channels, 0.0);
+      interpolate(k, channels, out);
     }
   }
 }
@@ -169,13 +169,22 @@ void RglTable::eval(std::span<const Direction> wi, std::span<const Direction> wo
     pairs.count = 0;
   };
   for (std::size_t k = 0; k < wi.size(); ++k) {
-    std::fill_n(f.data() + k * channel_count, channel_count, 0.0);
-    if (!(wi[k].z() > 0) || !(wo[k].z() > 0)) continue;
-    const auto [i, o] = turns_ == 1 ? DirectionPair{wi[k], wo[k]} : folded(wi[k], wo[k], turns_, first, last);
+    if (!(wi[k].z() > 0) || !(wo[k].z() > 0)) {
+      std::fill_n(f.data() + k * channel_count, channel_count, 0.0);
+      continue;
+    }
     const std::size_t n = pairs.count++;
     places[n] = k;
-    pairs.ix[n] = i.x(), pairs.iy[n] = i.y(), pairs.iz[n] = i.z();
-    pairs.ox[n] = o.x(), pairs.oy[n] = o.y(), pairs.oz[n] = o.z();
+    const auto add = [&](const Direction& i, const Direction& o) {
+      pairs.ix[n] = i.x(), pairs.iy[n] = i.y(), pairs.iz[n] = i.z();
+      pairs.ox[n] = o.x(), pairs.oy[n] = o.y(), pairs.oz[n] = o.z();
+    };
+    if (turns_ == 1) {
+      add(wi[k], wo[k]);
+    } else {
+      const DirectionPair pair = folded(wi[k], wo[k], turns_, first, last);
+      add(pair.wi, pair.wo);
+    }
     if (pairs.count == RglPairs::most) flush();
   }
   if (pairs.count > 0) flush();

@@ -61,10 +61,11 @@ class RglTable final : public Brdf {
   Dataset samples() const;
 
  private:
-  /// Adds the values of every pair to the channels at `place(k)`.
+  /// Writes the values of every pair to the channels at `place(k)`.
   template <class Place>
   void look_up(RglPairs& pairs, Place&& place) const;
-  SliceWeights slices_at(double theta_i, double phi_i) const noexcept;
+  void find_slices(double theta_i, double phi_i, SliceWeights& out) const noexcept;
+  void find_factors(const RglPairs& pairs, SquareColumn& out) const noexcept;
   UnitPoint unit_point(double theta, double phi) const noexcept;
 
   RglArrays arrays_;  ///< but for vndf and values

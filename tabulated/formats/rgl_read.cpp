@@ -73,12 +73,14 @@ class FieldReader {
                   fmt::format("[{}] from dimension {}: {}", fmt::join(wanted, ", "), first + 1, why));
   }
 
-  /// The last two dimensions must be a grid of at least 2 x 2 nodes.
+  /// The last two dimensions must be a grid of at least 2 x 2 nodes, that can be counted in 31 bits.
   void require_grid(const Tensor* tensor) {
     if (tensor == nullptr) return;
     const auto& shape = tensor->shape;
-    if (shape[shape.size() - 2] < 2 || shape.back() < 2)
-      faults_.add(where(tensor->name), fmt::format("shape [{}]", fmt::join(shape, ", ")), "at least 2 x 2 nodes to interpolate between");
+    constexpr std::size_t most = std::size_t{1} << 31;
+    if (shape[shape.size() - 2] < 2 || shape.back() < 2 || shape[shape.size() - 2] >= most / shape.back())
+      faults_.add(where(tensor->name), fmt::format("shape [{}]", fmt::join(shape, ", ")),
+                  "at least 2 x 2 nodes to interpolate between, and fewer than 2^31");
   }
 
   std::string where(std::string_view name) const { return fmt::format("{} field '{}'", faults_.file(), name); }

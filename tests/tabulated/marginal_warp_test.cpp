@@ -62,6 +62,28 @@ TEST_CASE("Between slices normalised densities are mixed, whatever their scale")
   CHECK(std::fabs(p.y - 0.5) < rounding);
 }
 
+TEST_CASE("Densities come back as they were given, and many points go where one goes") {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<float> number(0, 1);
+  constexpr std::size_t rows = 5, columns = 7;
+  std::vector<float> density(3 * rows * columns);
+  for (float& value : density) value = number(random);
+  const MarginalWarp warp(density, rows, columns);
+  CHECK(warp.density() == density);
+
+  SquareColumn y, x, to_y, to_x;
+  for (std::size_t k = 0; k < square_batch; ++k) y[k] = static_cast<double>(number(random)), x[k] = static_cast<double>(number(random));
+  const std::vector<SliceWeights> slices(square_batch, {{1, 2, 0, 0}, {0.3, 0.7, 0, 0}});
+  SquareCells cells;
+  find_square_cells(y, x, square_batch, rows, columns, cells);
+  warp.invert(slices.data(), cells, square_batch, to_y, to_x);
+  for (std::size_t k = 0; k < square_batch; ++k) {
+    const UnitPoint one = warp.invert(slices[k], {x[k], y[k]});
+    CHECK(to_x[k] == one.x);
+    CHECK(to_y[k] == one.y);
+  }
+}
+
 TEST_CASE("A row without any density has no image") {
   const MarginalWarp warp({0, 0, 0, 0, 1, 1}, 3, 2);
   CHECK(std::isnan(warp.invert(first_slice, {0.5, 0.2}).x));
