@@ -119,8 +119,6 @@ void GuidedSamples::guide_values(const Brdf* guide, std::span<const Direction> w
 
 GuidedSamples guided_samples(const Dataset& data, const Brdf* guide) {
   const std::size_t channels = data.channels.size();
-  if (guide && guide->channels().size() != channels && guide->channels().size() != 1)
-    throw Error(ErrorKind::usage, {"the guide", fmt::format("{} channels", guide->channels().size()), fmt::format("{} or 1", channels)});
   GuidedSamples out;
   out.isotropic = data.symmetry.isotropic;
 
@@ -139,7 +137,7 @@ GuidedSamples guided_samples(const Dataset& data, const Brdf* guide) {
     else
       blocked.push_back(point);
   }
-  out.masked = std::make_unique<const NeighbourTree>(std::move(blocked));
+  out.masked = std::make_shared<const NeighbourTree>(std::move(blocked));
 
   // Samples that meet at one place are one, and so are all places of the one.
   std::vector<std::size_t> parent(data.size()), founder(points.size());
@@ -174,6 +172,21 @@ GuidedSamples guided_samples(const Dataset& data, const Brdf* guide) {
   for (std::size_t mean = 0; mean < samples.size(); ++mean)
     for (std::size_t c = 0; c < channels; ++c) average(data, samples[mean], c, out.means, mean);
 
+  std::vector<PairPoint> kept;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (founder[k] == k) {
+      kept.push_back(points[k]), out.incident.push_back(placed[k].wi), out.outgoing.push_back(placed[k].wo);
+      out.mean_of.push_back(mean_of_root[root(parent, placed[k].sample)]);
+    }
+  out.places = std::make_shared<const NeighbourTree>(std::move(kept));
+  return with_guide(std::move(out), guide);
+}
+
+GuidedSamples with_guide(GuidedSamples out, const Brdf* guide) {
+  const std::size_t channels = out.means.f.size(), places = out.mean_of.size();
+  if (guide && guide->channels().size() != channels && guide->channels().size() != 1)
+    throw Error(ErrorKind::usage, {"the guide", fmt::format("{} channels", guide->channels().size()), fmt::format("{} or 1", channels)});
+  out.floor.clear();
   for (std::size_t c = 0; c < channels; ++c) {
     std::vector<double> sizes;
     for (const double f : out.means.f[c])
@@ -183,24 +196,16 @@ GuidedSamples guided_samples(const Dataset& data, const Brdf* guide) {
                                       : quantile(std::move(sizes), 0.5));
   }
 
-  std::vector<Direction> wi, wo;
-  std::vector<PairPoint> kept;
-  for (std::size_t k = 0; k < points.size(); ++k)
-    if (founder[k] == k) {
-      kept.push_back(points[k]), wi.push_back(placed[k].wi), wo.push_back(placed[k].wo);
-      out.mean_of.push_back(mean_of_root[root(parent, placed[k].sample)]);
-    }
   std::vector<double> g;
-  out.guide_values(guide, wi, wo, g);
-  out.rest.assign(channels, std::vector<double>(kept.size()));
+  out.guide_values(guide, out.incident, out.outgoing, g);
+  out.rest.assign(channels, std::vector<double>(places));
   out.scale = out.log_scale = out.rest;
-  for (std::size_t k = 0; k < kept.size(); ++k)
+  for (std::size_t k = 0; k < places; ++k)
     for (std::size_t c = 0; c < channels; ++c) {
       out.scale[c][k] = g[k * channels + c] + out.floor[c];
       out.log_scale[c][k] = std::log(out.scale[c][k]);
       out.rest[c][k] = (out.means.f[c][out.mean_of[k]] - g[k * channels + c]) / out.scale[c][k];
     }
-  out.places = std::make_unique<const NeighbourTree>(std::move(kept));
   return out;
 }
 

@@ -33,11 +33,12 @@ struct GuidedSamples {
   MeanSamples means;
   std::vector<double> floor;  ///< d per channel [1/sr]
 
+  std::vector<Direction> incident, outgoing;     ///< [place]
   std::vector<std::size_t> mean_of;              ///< [place] which mean lies there
   std::vector<std::vector<double>> rest, scale;  ///< [channel][place] y, and g + d [1/sr]
   std::vector<std::vector<double>> log_scale;    ///< [channel][place] ln((g + d) sr)
-  std::unique_ptr<const NeighbourTree> places;   ///< of the samples with a value
-  std::unique_ptr<const NeighbourTree> masked;   ///< of those without any value: directions known not to be known
+  std::shared_ptr<const NeighbourTree> places;   ///< of the samples with a value
+  std::shared_ptr<const NeighbourTree> masked;   ///< of those without any value: directions known not to be known
 
   /// The place of a pair in the units of the trees.
   PairPoint place(const Direction& wi, const Direction& wo) const noexcept;
@@ -48,5 +49,8 @@ struct GuidedSamples {
 /// Without a guide (null) y is f in units of the floor. Throws Error(input) if no sample has a value, Error(usage) if the guide has other
 /// channels than the data and not a single one.
 GuidedSamples guided_samples(const Dataset& data, const Brdf* guide);
+
+/// The same samples held against another guide, or none: their places stay what they are.
+GuidedSamples with_guide(GuidedSamples samples, const Brdf* guide);
 
 }  // namespace gonio::tabulated

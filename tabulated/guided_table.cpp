@@ -82,6 +82,15 @@ GuidedTable::GuidedTable(std::shared_ptr<const Dataset> samples, std::shared_ptr
       error_(estimate_interpolation_error(samples_, options.threads)),
       neighbourhoods_(samples_, error_.ranges) {}
 
+GuidedTable::GuidedTable(std::shared_ptr<const Dataset> samples, std::shared_ptr<const Brdf> guide, GuidedSamples guided,
+                         InterpolationError error, const GuidedTableOptions& options)
+    : dataset_(std::move(samples)),
+      guide_(std::move(guide)),
+      options_(options),
+      samples_(std::move(guided)),
+      error_(std::move(error)),
+      neighbourhoods_(samples_, error_.ranges) {}
+
 GuidedTable::~GuidedTable() = default;
 
 Coverage GuidedTable::eval_pair(const Direction& wi, const Direction& wo, const double* guide, bool bounded, double* f, double* u,

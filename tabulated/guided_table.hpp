@@ -39,6 +39,9 @@ class GuidedTable final : public UncertainBrdf {
  public:
   /// `guide` may be null: plain interpolation of f. Masked directions are rows of `samples` without any value. Throws as guided_samples.
   GuidedTable(std::shared_ptr<const Dataset> samples, std::shared_ptr<const Brdf> guide, const GuidedTableOptions& options = {});
+  /// Of what was made of the same samples and guide before.
+  GuidedTable(std::shared_ptr<const Dataset> samples, std::shared_ptr<const Brdf> guide, GuidedSamples guided, InterpolationError error,
+              const GuidedTableOptions& options);
   ~GuidedTable() override;
 
   const Channels& channels() const override { return dataset_->channels; }

@@ -20,7 +20,7 @@ constexpr CorrelationRanges usual_ranges{4, 4};
 /// Enough predictions to choose among the ranges; the errors of all samples are found afterwards.
 constexpr std::size_t most_single = 300, most_incidence = 150, fewest = 12;
 constexpr std::size_t most_channels = 3;  ///< that choose the ranges
-constexpr double student_freedom = 4;
+constexpr int student_freedom = 4;
 /// Neighbours whose own misses say how rough the field is here, and the weight of the field's average beside them.
 constexpr std::size_t local_neighbours = 8;
 constexpr double local_prior = 4;
@@ -119,13 +119,30 @@ struct Variances {
   double field = least_variance, bend = 0, noise = 0, log_likelihood = -std::numeric_limits<double>::infinity();
 };
 
+/// The logarithm of a product that is taken of many factors at a time.
+class LogOfProduct {
+ public:
+  /// Factors lie between 1e-100 and 1e100.
+  void multiply(double factor) {
+    product_ *= factor;
+    if (product_ < 1e-100 || product_ > 1e100) sum_ += std::log(product_), product_ = 1;
+  }
+  double value() const { return sum_ + std::log(product_); }
+
+ private:
+  double product_ = 1, sum_ = 0;
+};
+
+/// Σ of -½ ln v - ½ (n + 1) ln(1 + q/(n v)) with n = 4: of ½ (4 ln v - 5 ln(v + q/4)).
 double log_likelihood(const std::vector<Miss>& misses, const Variances& v) {
-  double out = 0;
+  static_assert(student_freedom == 4);
+  LogOfProduct out;
   for (const Miss& miss : misses) {
     const double variance = v.field * miss.kriging + v.bend * miss.bend + miss.known_noise + v.noise * miss.noise_factor + least_variance;
-    out -= 0.5 * std::log(variance) + 0.5 * (student_freedom + 1) * std::log1p(miss.squared / (student_freedom * variance));
+    const double ratio = variance / (variance + miss.squared / student_freedom);
+    out.multiply(ratio * ratio * (ratio * ratio) / (variance + miss.squared / student_freedom));
   }
-  return out;
+  return 0.5 * out.value();
 }
 
 /// The variances that make the misses likeliest: the best of a coarse grid.
@@ -244,7 +261,7 @@ InterpolationError::Parts InterpolationError::parts(const GuidedSamples& samples
   return out;
 }
 
-InterpolationError estimate_interpolation_error(const GuidedSamples& samples, int threads) {
+InterpolationError estimate_interpolation_error(const GuidedSamples& samples, int threads, std::size_t most) {
   const std::size_t channels = samples.floor.size();
   InterpolationError out;
   out.ranges = usual_ranges;
@@ -274,7 +291,9 @@ InterpolationError estimate_interpolation_error(const GuidedSamples& samples, in
   std::vector<double> squared(samples.means.size(), nan);
   std::array<std::vector<double>, 2> relative{squared, squared};
   const bool incidences = samples.spacing.gridded && samples.spacing.incidences > 2;
-  in_parallel(places.size(), threads, [&](std::size_t k) {
+  const std::size_t predicted = std::min(places.size(), most);
+  in_parallel(predicted, threads, [&](std::size_t number) {
+    const std::size_t k = number * places.size() / predicted;
     for (const bool whole_incidence : {false, true}) {
       if (whole_incidence && !incidences) continue;
       const auto one = whole_incidence ? without_its_incidence(samples, places[k]) : without_itself(samples, places[k]);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "tabulated/guided_samples.hpp"
@@ -47,6 +48,9 @@ struct InterpolationError {
   double sample_variance(const GuidedSamples& samples, std::size_t channel, std::size_t place) const;
 };
 
-InterpolationError estimate_interpolation_error(const GuidedSamples& samples, int threads);
+/// At most `most` samples, spread over all of them, are predicted; the others have no `local`. All are wanted for a table, fewer tell
+/// which guide is better.
+InterpolationError estimate_interpolation_error(const GuidedSamples& samples, int threads,
+                                                std::size_t most = std::numeric_limits<std::size_t>::max());
 
 }  // namespace gonio::tabulated

@@ -23,6 +23,9 @@ namespace {
 constexpr std::array auto_models{"lambert", "phong", "blinn-phong", "ggx-separable-fresnel", "blinn-phong+ggx-separable"};
 /// Values of many decades want another metric than those of one.
 constexpr std::array auto_metrics{fitting::Metric::linear, fitting::Metric::cbrt};
+/// Of more samples than this, guides are fitted to this many and compared by what they predict of this many: a guide need not be better
+/// than its family, and to be told from another takes fewer predictions still.
+constexpr std::size_t fitted_samples = std::size_t{1} << 13, compared_samples = std::size_t{1} << 12;
 /// Pairs at which a source without samples is compared with itself after symmetry was imposed.
 constexpr std::size_t compared_pairs = 4000;
 
@@ -53,6 +56,7 @@ std::optional<Candidate> fitted(const Observations& observations, const std::str
   options.metric = metric;
   options.only_values = true;
   options.ignore_apertures = true;  // the guide stands for the readings, which are means over the apertures
+  options.most_samples = fitted_samples;
   options.threads = 1;
   const fitting::FitResult fit = fitting::fit(observations, options);
   if (fit.status != fitting::Status::converged && fit.status != fitting::Status::not_converged) return std::nullopt;
@@ -166,24 +170,29 @@ tabulated::Opened measured_table(const tabulated::Opened& source, const TableFla
     const auto samples = prepared(*source.dataset, imposed, flags.mask_retro_deg, report.n_masked_retro);
     const tabulated::GuidedTableOptions options{.extrapolate = flags.extrapolate == "model", .threads = threads};
     auto tried = candidates(flags.guide, *observe(samples), threads);
-    std::shared_ptr<const tabulated::GuidedTable> best;
+    tabulated::GuidedSamples guided = tabulated::guided_samples(*samples, nullptr);
+    std::size_t best = 0;
+    std::vector<tabulated::InterpolationError> errors;
     for (Candidate& one : tried) {
-      auto table = std::make_shared<const tabulated::GuidedTable>(samples, one.brdf, options);
-      one.tried.alone = table->error().mean_alone, one.tried.incidence = table->error().mean_incidence;
-      if (!best || worst(one.tried) < worst(report.guides.front())) {
-        best = std::move(table);
-        report.guides.insert(report.guides.begin(), one.tried);
-      } else {
-        report.guides.push_back(one.tried);
-      }
+      guided = tabulated::with_guide(std::move(guided), one.brdf.get());
+      errors.push_back(tabulated::estimate_interpolation_error(guided, threads, compared_samples));
+      one.tried.alone = errors.back().mean_alone, one.tried.incidence = errors.back().mean_incidence;
+      report.guides.push_back(one.tried);
+      if (worst(one.tried) < worst(tried[best].tried)) best = errors.size() - 1;
     }
+    guided = tabulated::with_guide(std::move(guided), tried[best].brdf.get());
+    if (guided.means.size() > compared_samples) errors[best] = tabulated::estimate_interpolation_error(guided, threads);
+    const auto table = std::make_shared<const tabulated::GuidedTable>(samples, tried[best].brdf, std::move(guided), errors[best], options);
+    std::rotate(report.guides.begin(), report.guides.begin() + static_cast<std::ptrdiff_t>(best),
+                report.guides.begin() + static_cast<std::ptrdiff_t>(best) + 1);
+    report.guides.front().alone = table->error().mean_alone, report.guides.front().incidence = table->error().mean_incidence;
     out.dataset = samples;
     before = compared(out);
     report.n_samples = samples->size() - report.n_masked_retro;
-    report.n_left_out = best->error().n_left_out;
+    report.n_left_out = table->error().n_left_out;
     report.extrapolated = options.extrapolate;
-    report.noise_estimated = std::any_of(best->error().noise.begin(), best->error().noise.end(), [](double noise) { return noise != 0; });
-    out.brdf = out.uncertain = best;
+    report.noise_estimated = std::any_of(table->error().noise.begin(), table->error().noise.end(), [](double noise) { return noise != 0; });
+    out.brdf = out.uncertain = table;
     if (report.n_masked_retro == 0) out.dataset = source.dataset;
     if (flags.resample || imposed != Symmetry{}) out.dataset.reset();
   }

@@ -93,3 +93,17 @@ TEST_CASE("A sample at normal incidence belongs to every azimuth of an isotropic
     CHECK(std::sqrt(found[0].squared) * out.spacing.s < 0.06);  // half of 10° at 40°
   }
 }
+
+TEST_CASE("Against another guide the samples are what they are against it from the first") {
+  INFO("seed " << test::seed);
+  test::Random random(test::seed);
+  const AnalyticBrdf one = test::model("phong", {0.3, 0.2, 100}), other = test::model("lambert", {0.2});
+  const auto data = test::measured(one, test::planned({}), test::Noise{}, random);
+  const GuidedSamples first = guided_samples(*data, &other), second = with_guide(guided_samples(*data, &one), &other);
+  CHECK(first.floor == second.floor);
+  CHECK(first.rest == second.rest);
+  CHECK(first.scale == second.scale);
+  CHECK(first.mean_of == second.mean_of);
+  const GuidedSamples none = with_guide(guided_samples(*data, &one), nullptr);
+  CHECK(none.rest == guided_samples(*data, nullptr).rest);
+}

@@ -44,3 +44,14 @@ TEST_CASE("The estimate does not depend on the number of threads, and a few samp
       guided_samples(*test::measured(truth, {{10_deg, 0_deg, 10_deg, 0_deg}, {10_deg, 0_deg, 20_deg, 0_deg}}, {}, random), nullptr);
   CHECK(estimate_interpolation_error(few, 1).variance[0] > 0);
 }
+
+TEST_CASE("Fewer predictions tell the same of a guide, within their own scatter") {
+  INFO("seed " << test::seed);
+  test::Random random(test::seed);
+  const AnalyticBrdf truth = test::model("blinn-phong", {0.2, 0.3, 50}), guide = test::model("blinn-phong", {0.2, 0.3, 60});
+  const GuidedSamples samples = guided_samples(*test::measured(truth, test::planned({}), test::Noise{}, random), &guide);
+  const InterpolationError all = estimate_interpolation_error(samples, 2), few = estimate_interpolation_error(samples, 2, 400);
+  CHECK(few.ranges.s == all.ranges.s);
+  CHECK(few.mean_alone == Approx(all.mean_alone).epsilon(0.15));
+  CHECK(few.mean_incidence == Approx(all.mean_incidence).epsilon(0.3));
+}
