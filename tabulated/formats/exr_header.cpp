@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -100,6 +101,28 @@ bool is_sound_value(const std::string& type, std::span<const std::byte> value) {
   return type != "stringvector" && type != "preview";
 }
 
+/// What a part asks the library to make room for before it reads a pixel.
+struct Room {
+  double window_pixels = 0, tile_pixels = 0, channels = 0;
+
+  void note(const std::string& name, const std::string& type, std::span<const std::byte> value) {
+    HeaderBytes bytes(value);
+    const auto number = [&] { return static_cast<double>(bytes.number().value_or(0)); };
+    if (name == "dataWindow" && type == "box2i") {
+      const double left = number(), top = number(), right = number(), bottom = number();
+      window_pixels = std::max(0.0, right - left + 1) * std::max(0.0, bottom - top + 1);
+    } else if (type == "tiledesc") {
+      const double width = number(), height = number();
+      tile_pixels = std::fabs(width * height);
+    } else if (type == "chlist") {
+      constexpr double channel_size = 18;  // with a name of one letter
+      channels = static_cast<double>(value.size()) / channel_size;
+    }
+  }
+  /// With the smallest numbers a channel can have.
+  double bytes() const { return 2 * channels * std::max(window_pixels, tile_pixels); }
+};
+
 }  // namespace
 
 void require_sound_exr_header(const std::filesystem::path& path) {
@@ -111,11 +134,19 @@ void require_sound_exr_header(const std::filesystem::path& path) {
   bytes.skip(preamble_size);
   // Layout (openexr.com, "OpenEXR File Layout"): per part its attributes {name, type, size, value}, closed by an empty name; in a file of
   // several parts another empty name closes the list of parts.
+  Room room;
   for (bool first_of_part = true;;) {
     const std::size_t start = bytes.offset();
     const auto name = bytes.text();
     if (!name) return;
     if (name->empty()) {
+      // Deflate shrinks nothing by more than 1032.
+      constexpr double largest_compression = 1032;
+      const double most = largest_compression * static_cast<double>(file.bytes().size());
+      if (room.bytes() > most)
+        throw Error(ErrorKind::input, {fmt::format("{} byte {}", path.string(), start), fmt::format("a part of {:.3g} bytes", room.bytes()),
+                                       fmt::format("at most {:.3g}: a file of {} bytes cannot hold more", most, file.bytes().size())});
+      room = {};
       if (first_of_part || (version & multi_part_flag) == 0) return;
       first_of_part = true;
       continue;
@@ -128,11 +159,13 @@ void require_sound_exr_header(const std::filesystem::path& path) {
                   {fmt::format("{} byte {}", path.string(), start),
                    fmt::format("an attribute {} of {} bytes, {} bytes before the end", excerpt(*name), *size, bytes.left()),
                    "attributes that end inside the file"});
-    if (!is_sound_value(*type, file.bytes().subspan(bytes.offset(), static_cast<std::size_t>(*size))))
+    const auto value = file.bytes().subspan(bytes.offset(), static_cast<std::size_t>(*size));
+    if (!is_sound_value(*type, value))
       throw Error(ErrorKind::input, {fmt::format("{} byte {}", path.string(), start),
                                      fmt::format("an attribute {} of type {} and {} bytes", excerpt(*name), excerpt(*type), *size),
                                      "a value of its type, of a type that a table has"});
-    bytes.skip(static_cast<std::size_t>(*size));
+    room.note(*name, *type, value);
+    bytes.skip(value.size());
     first_of_part = false;
   }
 }

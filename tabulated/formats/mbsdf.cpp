@@ -95,7 +95,7 @@ File read_blocks(const std::string& bytes, FaultList& faults) {
     const std::size_t end = std::min(bytes.find('\n', at), bytes.size());
     const std::string line = bytes.substr(at, end - at);
     const std::size_t equals = line.find('=');
-    if (equals == std::string::npos || line.find('"', equals) == std::string::npos) {
+    if (equals == std::string::npos || equals == 0 || line.find('"', equals) == std::string::npos) {
       faults.add(fmt::format("{} byte {}", faults.file(), at), excerpt(line), "a line key=\"value\", or the beginning of the data");
       return out;
     }

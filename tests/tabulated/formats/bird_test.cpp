@@ -139,6 +139,13 @@ TEST_CASE("Radians, micrometres, polarisation and Stokes vectors are understood"
   CHECK(read.info[4].second.find("faults, the first") != std::string::npos);
 }
 
+TEST_CASE("A text in the metadata that is too long hides no fault of the data") {
+  const std::string text(20000, 'x');
+  const std::string faults =
+      faults_of([&] { open(R"({"metadata": {"timestamp": "", "provenance": {}, "description": ")" + text + "\"}}"); });
+  CHECK(faults.find("no member \"data\"") != std::string::npos);
+}
+
 TEST_CASE("Every fault of the data is named at once, by its place") {
   const std::string faults = faults_of([] {
     open(with(R"("BRDF": {"unit": "1/sr", "values": [0.5, -1]}, "uBRDF": {"unit": "1/sr"}, "wavelength_i": {"unit": "m", "values": [1]})"));

@@ -54,6 +54,26 @@ TEST_CASE("A value of another size than its type has is refused, and so are type
   CHECK(faults(4, "1234", "whatever").empty());
 }
 
+TEST_CASE("A part of more pixels than the file could hold is refused, by its window or by its tiles") {
+  const test::TemporaryFolder scratch;
+  const auto words = [](std::initializer_list<std::int32_t> numbers) {
+    std::string out;
+    for (const std::int32_t number : numbers) out.append(reinterpret_cast<const char*>(&number), sizeof number);
+    return out;
+  };
+  const auto faults = [&](const std::string& window, const std::string& tiles) {
+    const std::string channel = std::string("R\0", 2) + std::string(16, '\0');
+    const std::string bytes = one_part + attribute("channels", 19, channel + end, "chlist") + attribute("dataWindow", 16, window, "box2i") +
+                              attribute("tiles", 9, tiles, "tiledesc") + end;
+    return test::faults_of([&] { require_sound_exr_header(scratch.file("x.exr", bytes)); });
+  };
+  const std::string small = words({0, 0, 63, 63}), tiles = words({64, 64}) + end;
+  CHECK(faults(small, tiles).empty());
+  CHECK(faults(words({0, 0, 20000000, 3586}), tiles).find("cannot hold more") != std::string::npos);
+  CHECK(faults(words({-2147483647, -2147483647, 2147483647, 2147483647}), tiles).find("cannot hold more") != std::string::npos);
+  CHECK(faults(small, words({-1, 65536}) + end).find("cannot hold more") != std::string::npos);
+}
+
 TEST_CASE("A picture of ours is sound; what ends too early is left to the library") {
   const test::TemporaryFolder scratch;
   write_exr_image({2, 1, {{"Y", {1, 2}}}, {{"a", "text"}}}, scratch / "image.exr");

@@ -149,6 +149,8 @@ TEST_CASE("Sizes that the file does not keep are refused before anything is allo
   CHECK(faults_of([&] { open(header + number(1U) + number(0xffffffffU) + number(0xffffffffU)); }).find("4294967295") != std::string::npos);
   CHECK(faults_of([&] { open(header + number(0U) + number(0U) + number(1U)); }).find("0 zenith angles") != std::string::npos);
   CHECK(faults_of([&] { open(header + number(7U) + number(1U) + number(1U)); }).find("type 7") != std::string::npos);
+  CHECK(faults_of([&] { open("NVIDIA ARC MBSDF V1\n=\"nameless\"\nMBSDF_DATA=\n" + number(0U)); }).find("key=\"value\"") !=
+        std::string::npos);
   CHECK(faults_of([&] { open(small() + "x"); }).find("1 bytes more") != std::string::npos);
   const std::string whole = small();
   for (std::size_t length = 20; length < whole.size(); ++length) {
