@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,7 +21,9 @@ struct ExportNotes {
   std::size_t n_negative = 0;                              ///< pairs with a negative value; `lost` says what was written there
   std::size_t n_extrapolated = 0;                          ///< pairs beyond the samples or in a masked region
   std::vector<std::pair<std::string, std::string>> facts;  ///< grid, size, conventions of the target: key and words
-  std::vector<std::string> lost;                           ///< one sentence per thing the file does not hold, or holds changed
+  /// What the file does not say of itself: the answers a reader wants (`ReadOptions::assume`) to get back what was written.
+  std::map<std::string, std::string> assume;
+  std::vector<std::string> lost;  ///< one sentence per thing the file does not hold, or holds changed
 };
 
 }  // namespace gonio::tabulated

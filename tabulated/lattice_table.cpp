@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "brdf/error.hpp"
+#include "tabulated/beta_offset.hpp"
 #include "tabulated/distorted_angles.hpp"
 #include "tabulated/specular_angles.hpp"
 
@@ -79,6 +80,10 @@ std::array<double, 4> coordinates_of(const Lattice& lattice, const Direction& wi
       const DistortedAngles angles = to_distorted(distorted_pole(theta_i, offset_at(lattice, theta_i), wi.phi()), wo);
       return {theta_i, phi_i, angles.polar_deg, isotropic ? angles.azimuth_deg - phi_i : angles.azimuth_deg};
     }
+    case LatticeCoordinates::beta: {
+      const BetaOffset offset = to_beta_offset(wi, wo);
+      return {wi.theta().degrees(), wi.phi().degrees(), offset.length, offset.azimuth_deg};
+    }
     case LatticeCoordinates::half_difference: break;
   }
   const HalfDifference angles = half_difference(wi, wo);
@@ -142,6 +147,12 @@ GonioAngles Lattice::angles(std::size_t index) const {
       const Angle azimuth = nodes_deg[1].size() == 1 ? angle[1] + angle[3] : angle[3];
       const Direction wo = from_distorted(pole, {angle[2].degrees(), azimuth.degrees()});
       out = {angle[0], angle[1], wo.theta(), wo.phi()};
+      break;
+    }
+    case LatticeCoordinates::beta: {
+      const Angle azimuth = angle[1] + degrees(180) + angle[3], none = degrees(180);
+      out = from_beta_offset(angle[0], angle[1], nodes_deg[2][at[2]], azimuth, Side::reflection)
+                .value_or(GonioAngles{angle[0], angle[1], none, angle[3]});
       break;
     }
     case LatticeCoordinates::half_difference: {

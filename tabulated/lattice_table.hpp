@@ -16,7 +16,8 @@ enum class LatticeCoordinates {
   spherical,        ///< theta_i, phi_i, theta_o, phi_o; with a single phi_i the last is phi_o - phi_i
   specular,         ///< theta_i, phi_i, angle from the specular direction, azimuth about it (tabulated/specular_angles.hpp)
   half_difference,  ///< theta_h, phi_h, theta_d, phi_d of Rusinkiewicz (brdf/coordinates.hpp)
-  distorted  ///< theta_i, phi_i, polar angle, azimuth of tabulated/distorted_angles.hpp; with a single phi_i the last counts from phi_i
+  distorted,  ///< theta_i, phi_i, polar angle, azimuth of tabulated/distorted_angles.hpp; with a single phi_i the last counts from phi_i
+  beta        ///< theta_i, phi_i, length (no angle: `nodes_deg[2]` is in 0 ... 2) and azimuth of tabulated/beta_offset.hpp
 };
 
 struct Lattice {

@@ -31,6 +31,8 @@ struct SpecularGrid {
   /// Pose of a node; one rotation alone means that the sample has no orientation: then phi_i is 0.
   GonioAngles angles(std::size_t rotation, std::size_t incidence, std::size_t azimuth, std::size_t radial) const;
   bool beyond_horizon(const GonioAngles& node) const noexcept;
+
+  friend bool operator==(const SpecularGrid&, const SpecularGrid&) = default;
 };
 
 /// Linear between nodes in rotation, incidence, azimuth and radial angle, so that a peak stays at the specular direction whatever the

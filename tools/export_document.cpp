@@ -27,13 +27,15 @@ constexpr std::array counts{
 }  // namespace
 
 Json notes_document(const tabulated::ExportNotes& notes) {
-  Json files = Json::array(), facts = Json::object(), lost = Json::array();
+  Json files = Json::array(), facts = Json::object(), assume = Json::object(), lost = Json::array();
   for (const auto& file : notes.files) files.push_back(file.string());
   for (const auto& [key, words] : notes.facts) facts.set(key, words);
+  for (const auto& [key, answer] : notes.assume) assume.set(key, answer);
   for (const std::string& sentence : notes.lost) lost.push_back(sentence);
   Json document = Json::object({{"files", std::move(files)}});
   for (const NamedCount& entry : counts) document.set(entry.name, static_cast<std::int64_t>(notes.*entry.count));
   document.set("facts", std::move(facts));
+  document.set("assume", std::move(assume));
   document.set("lost", std::move(lost));
   return document;
 }
@@ -42,6 +44,7 @@ std::vector<std::string> notes_lines(const tabulated::ExportNotes& notes) {
   std::vector<std::pair<std::string, std::string>> facts = notes.facts;
   for (const NamedCount& entry : counts)
     if (notes.*entry.count > 0) facts.emplace_back(entry.words, std::to_string(notes.*entry.count));
+  for (const auto& [key, answer] : notes.assume) facts.emplace_back("read back with", fmt::format("--assume {}={}", key, answer));
   std::size_t width = 0;
   for (const auto& [key, words] : facts) width = std::max(width, key.size());
   std::vector<std::string> out;

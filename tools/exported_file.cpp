@@ -59,7 +59,7 @@ ExportedFile export_file(const tabulated::Format& format, const tabulated::Opene
   if (read_back && is_renderer_format(format))
     file.not_read_back = "renderers read it, gonio does not";
   else if (read_back)
-    file.read_back = round_trip(source, out, file.not_read_back);
+    file.read_back = round_trip(source, file.notes, file.not_read_back);
   return file;
 }
 

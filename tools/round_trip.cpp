@@ -28,12 +28,14 @@ Direction direction(std::mt19937_64& random) {
 
 }  // namespace
 
-std::optional<RoundTrip> round_trip(const tabulated::Opened& source, const std::filesystem::path& file, std::string& reason) {
+std::optional<RoundTrip> round_trip(const tabulated::Opened& source, const tabulated::ExportNotes& notes, std::string& reason) {
   if (!source.brdf) return reason = "the source cannot be evaluated", std::nullopt;
   const auto begin = std::chrono::steady_clock::now();
+  tabulated::ReadOptions options;
+  options.assume = notes.assume;
   tabulated::Opened back;
   try {
-    back = tabulated::open_brdf(file);
+    back = tabulated::open_brdf(notes.files.front(), options);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::input && error.kind() != ErrorKind::usage) throw;
     return reason = "not read back: " + std::string(error.faults().empty() ? error.what() : error.faults().front().found), std::nullopt;

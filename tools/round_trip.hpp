@@ -21,8 +21,9 @@ struct RoundTrip {
   double read_s = 0;  ///< to open the file and to evaluate it once
 };
 
-/// Nothing, with the reason, where the file cannot be compared: no reader, other channels, nothing to evaluate.
-std::optional<RoundTrip> round_trip(const tabulated::Opened& source, const std::filesystem::path& file, std::string& reason);
+/// Reads `notes.files.front()` with the answers of the notes. Nothing, with the reason, where the file cannot be compared: no reader, other
+/// channels, nothing to evaluate.
+std::optional<RoundTrip> round_trip(const tabulated::Opened& source, const tabulated::ExportNotes& notes, std::string& reason);
 
 Json round_trip_document(const std::optional<RoundTrip>& result, const std::string& reason);
 

@@ -15,8 +15,8 @@
 #include "tabulated/fault_list.hpp"
 #include "tabulated/formats/alta.hpp"
 #include "tabulated/formats/csv_text.hpp"
-#include "tabulated/opened_samples.hpp"
 #include "tabulated/quantity.hpp"
+#include "tabulated/values_to_write.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -259,7 +259,7 @@ bool recognises_alta(std::string_view head, std::uintmax_t) {
 }
 
 Opened open_alta(const std::filesystem::path& path, const ReadOptions& options) {
-  Opened out = opened_samples("alta", std::make_shared<const Dataset>(read_alta(path, options)));
+  Opened out = opened_grid("alta", std::make_shared<const Dataset>(read_alta(path, options)));
   const std::string quantity = out.dataset->provenance.at("source_quantity");
   out.info.insert(
       out.info.begin(),

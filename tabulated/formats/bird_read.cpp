@@ -14,8 +14,8 @@
 #include "tabulated/fault_list.hpp"
 #include "tabulated/formats/bird.hpp"
 #include "tabulated/formats/csv_text.hpp"
-#include "tabulated/opened_samples.hpp"
 #include "tabulated/row_samples.hpp"
+#include "tabulated/values_to_write.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -263,7 +263,7 @@ Opened open_bird(const std::filesystem::path& path, const ReadOptions& options) 
       samples.samples.provenance[fmt::format("uncertainty_{}", name)] =
           fmt::format("{} {}", common.at("value").number(), common.at("unit").string());
 
-  Opened out = opened_samples("bird-json", std::make_shared<const Dataset>(std::move(samples.samples)));
+  Opened out = opened_grid("bird-json", std::make_shared<const Dataset>(std::move(samples.samples)));
   const bool known = out.dataset->has_uncertainty();
   out.info.insert(out.info.begin(),
                   {{"holds", "f, cosine not included"},

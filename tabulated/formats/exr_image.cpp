@@ -57,19 +57,26 @@ ExrImage read_exr_image(const std::filesystem::path& path) {
     if (window.min != Imath::V2i(0, 0) || width < 1 || height < 1 || width > limit || height > limit / width)
       throw refused(fmt::format("{} x {} pixels from ({}, {})", width, height, window.min.x, window.min.y),
                     "at most 2^24 pixels from (0, 0)");
-    if (header.compression() > Imf::ZIP_COMPRESSION) throw refused("compression with loss", "ZIP, RLE or no compression");
+    if (header.compression() > Imf::PIZ_COMPRESSION) throw refused("compression with loss", "ZIP, PIZ, RLE or no compression");
 
     ExrImage out;
     out.width = static_cast<std::size_t>(width), out.height = static_cast<std::size_t>(height);
     for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
       constexpr std::size_t most_channels = 4096;
-      if (channel.channel().type != Imf::FLOAT || channel.channel().xSampling != 1 || channel.channel().ySampling != 1 ||
+      if (channel.channel().type == Imf::UINT || channel.channel().xSampling != 1 || channel.channel().ySampling != 1 ||
           out.channels.size() == most_channels)
-        throw refused(fmt::format("a channel {} that is not float, or too many", channel.name()), "float channels, one number per pixel");
+        throw refused(fmt::format("a channel {} of integers or not of every pixel, or too many", channel.name()),
+                      "channels of floats, one number per pixel");
       out.channels.emplace_back(channel.name(), std::vector<float>());
     }
     if (out.channels.empty() || out.width * out.height > max_image_pixels / out.channels.size())
       throw refused(fmt::format("{} channels of {} x {} pixels", out.channels.size(), width, height), "at most 2^24 numbers");
+    // No stream of deflate grows by more, and the others less: what is promised beyond is not there.
+    constexpr std::uintmax_t largest_growth = 1032, smallest_number = 2;
+    const std::uintmax_t file_size = std::filesystem::file_size(path);
+    if (smallest_number * out.channels.size() * out.width * out.height > largest_growth * file_size)
+      throw refused(fmt::format("{} channels of {} x {} pixels in {} bytes", out.channels.size(), width, height, file_size),
+                    "a file as long as its header says");
     Imf::FrameBuffer frame;
     for (auto& [name, values] : out.channels) {
       values.resize(out.width * out.height);

@@ -21,8 +21,8 @@ void write_exr_image(const ExrImage& image, const std::filesystem::path& path);
 
 /// Pictures of more pixels are not read.
 constexpr std::size_t max_image_pixels = std::size_t{1} << 24;
-/// The float channels and the text attributes `gonio.*` of the first part. Throws Error(input): not OpenEXR, damaged, compressed with loss,
-/// larger than that, a channel that is not float.
+/// The float and half channels and the text attributes `gonio.*` of the first part. Throws Error(input): not OpenEXR, damaged, compressed
+/// with loss, larger than that or than the file can hold, a channel of integers.
 ExrImage read_exr_image(const std::filesystem::path& path);
 
 }  // namespace gonio::tabulated

@@ -12,7 +12,7 @@
 #include "tabulated/fault_list.hpp"
 #include "tabulated/formats/csv_wavelengths.hpp"
 #include "tabulated/formats/openmaterial.hpp"
-#include "tabulated/opened_samples.hpp"
+#include "tabulated/values_to_write.hpp"
 
 namespace gonio::tabulated {
 namespace {
@@ -122,7 +122,7 @@ Opened open_openmaterial(const std::filesystem::path& path, const ReadOptions& o
     data.provenance["openmaterial_metadata"] = metadata.dump(-1);
   }
 
-  Opened out = opened_samples("openmaterial-json", std::make_shared<const Dataset>(std::move(data)));
+  Opened out = opened_grid("openmaterial-json", std::make_shared<const Dataset>(std::move(data)));
   out.info.insert(out.info.begin(), {{"holds", "f, cosine not included"},
                                      {"unit", "1/sr"},
                                      {"nodes", fmt::format("{} rows of wavelength and directions", n_rows)},

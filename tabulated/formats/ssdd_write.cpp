@@ -64,6 +64,7 @@ Lattice grid_of(LatticeCoordinates coordinates, const Opened& source, GridSize s
     }
     case LatticeCoordinates::specular: out.nodes_deg = {directions.theta_i_deg, incidence, radial_grid_deg(size), turn}; break;
     case LatticeCoordinates::distorted: out.nodes_deg = {directions.theta_i_deg, incidence, squares(counts.half), turn}; break;
+    case LatticeCoordinates::beta: break;  // SSDD has no such coordinates
     case LatticeCoordinates::half_difference: out.nodes_deg = {squares(counts.half), incidence, even(90, counts.difference), turn}; break;
   }
   return out;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -16,8 +17,10 @@
 #include "brdf/error.hpp"
 #include "data-schemas/document.hpp"
 #include "data-schemas/write_file.hpp"
+#include "tabulated/beta_offset.hpp"
 #include "tabulated/fault_list.hpp"
 #include "tabulated/formats/csv_text.hpp"
+#include "tabulated/lattice_table.hpp"
 #include "tabulated/opened_samples.hpp"
 #include "tabulated/radial_grid.hpp"
 #include "tabulated/values_to_write.hpp"
@@ -60,8 +63,9 @@ Content read_rows(std::string_view bytes, FaultList& faults) {
     for (std::size_t k = 0; sound && k < fields.size(); ++k) {
       const Number number = parse_number(fields[k]);
       numbers[k] = number.value;
-      if (number.fault == nullptr && !std::isnan(number.value)) continue;
-      faults.add_at(lines.number(), excerpt(fields[k]), "a finite number");
+      const bool is_value = k + 2 >= fields.size();
+      if (number.fault == nullptr && (is_value || !std::isnan(number.value))) continue;
+      faults.add_at(lines.number(), excerpt(fields[k]), is_value ? "a finite number, or nan" : "a finite number");
       sound = false;
     }
     if (!sound) continue;
@@ -76,20 +80,10 @@ Content read_rows(std::string_view bytes, FaultList& faults) {
   return out;
 }
 
-/// Pose of β = β0 + beta (cos a, sin a) in a frame whose x axis has azimuth `axis`; nothing beyond the horizon.
-std::optional<GonioAngles> pose_of(const Row& row, double scatter_azimuth_deg, Angle axis, Side side) {
-  const Angle theta_i = degrees(row.incidence_deg), phi_i = degrees(row.azimuth_deg), a = axis + degrees(scatter_azimuth_deg);
-  const double x = -theta_i.sin() * phi_i.cos() + row.beta * a.cos(), y = -theta_i.sin() * phi_i.sin() + row.beta * a.sin();
-  const double sine = std::hypot(x, y);
-  if (sine >= 1) return std::nullopt;
-  Angle theta = angle_of(sine, std::sqrt(1 - sine * sine));
-  if (side == Side::transmission) theta = degrees(180) - theta;
-  return GonioAngles{theta_i, phi_i, theta, angle_of(y, x)};
-}
-
 Side chosen_side(const std::vector<Row>& rows, const ReadOptions& options, FaultList& faults) {
-  const bool brdf = std::any_of(rows.begin(), rows.end(), [](const Row&row) { return row.brdf != 0; }),
-             btdf = std::any_of(rows.begin(), rows.end(), [](const Row&row) { return row.btdf != 0; });
+  const auto is_filled = [](double value) { return !std::isnan(value) && value != 0; };
+  const bool brdf = std::any_of(rows.begin(), rows.end(), [&](const Row&row) { return is_filled(row.brdf); }),
+             btdf = std::any_of(rows.begin(), rows.end(), [&](const Row&row) { return is_filled(row.btdf); });
   const auto answer = options.assumed("scatter");
   if (answer && *answer != "BRDF" && *answer != "BTDF")
     faults.add(faults.file(), fmt::format("--assume scatter={}", *answer), "BRDF or BTDF");
@@ -97,27 +91,70 @@ Side chosen_side(const std::vector<Row>& rows, const ReadOptions& options, Fault
   return answer ? (*answer == "BTDF" ? Side::transmission : Side::reflection) : btdf && !brdf ? Side::transmission : Side::reflection;
 }
 
-}  // namespace
+/// Where the azimuths of scatter count from, and whether one of them stands for all.
+struct Zero {
+  bool across = true, rings = false;
+};
 
-Dataset read_tracepro(const std::filesystem::path& path, const ReadOptions& options) {
-  FaultList faults(path.string());
-  const std::string bytes = read_file(path);
-  Content content = read_rows(bytes, faults);
-  faults.raise();
-  const std::vector<Row>& rows = content.rows;
-  std::map<double, std::size_t> channel_of;
-  std::set<double> scatter_azimuths, azimuths;
+/// The rows as a table if they hold every combination of their angles once; null if not, or where azimuths count from the sample.
+std::shared_ptr<const LatticeTable> table_of(const std::vector<Row>& rows, const Dataset& samples, const Zero& zero) {
+  std::array<std::set<double>, 4> axes;
+  const auto coordinates = [](const Row& row) { return std::array{row.incidence_deg, row.azimuth_deg, row.beta, row.scatter_azimuth_deg}; };
   for (const Row& row : rows)
-    channel_of.emplace(row.wavelength_um, 0), scatter_azimuths.insert(row.scatter_azimuth_deg), azimuths.insert(row.azimuth_deg);
+    for (std::size_t axis = 0; axis < 4; ++axis) axes[axis].insert(coordinates(row)[axis]);
+  Lattice lattice;
+  lattice.coordinates = LatticeCoordinates::beta;
+  lattice.side = samples.side;
+  double nodes = 1;
+  for (std::size_t axis = 0; axis < 4; ++axis) {
+    lattice.nodes_deg[axis].assign(axes[axis].begin(), axes[axis].end());
+    nodes *= static_cast<double>(axes[axis].size());
+  }
+  // The file's azimuth 0 is across the plane of incidence, the table's is forward.
+  for (double& azimuth : lattice.nodes_deg[3]) azimuth -= 90;
+  lattice.bilateral = zero.rings;
+  const auto within_a_turn = [](const std::vector<double>& azimuths) { return azimuths.back() - azimuths.front() <= 360; };
+  if (!zero.across || nodes * static_cast<double>(samples.channels.size()) != static_cast<double>(rows.size()) ||
+      !within_a_turn(lattice.nodes_deg[1]) || !within_a_turn(lattice.nodes_deg[3]))
+    return nullptr;
 
-  Dataset out;
-  out.side = chosen_side(rows, options, faults);
-  const bool symmetric = scatter_azimuths.size() == 1;
-  const std::string zero = options.assumed("zero_azimuth").value_or(symmetric || content.across ? "across" : "");
+  std::map<double, std::size_t> channel_of;
+  for (const Row& row : rows) channel_of.emplace(row.wavelength_um, 0);
+  std::size_t channels = 0;
+  for (auto& [um, place] : channel_of) place = channels++;
+  std::vector<std::vector<double>> values(channels, std::vector<double>(lattice.size()));
+  std::vector<bool> seen(channels * lattice.size());
+  for (const Row& row : rows) {
+    std::array<std::size_t, 4> at{};
+    for (std::size_t axis = 0; axis < 4; ++axis)
+      at[axis] = static_cast<std::size_t>(std::distance(axes[axis].begin(), axes[axis].find(coordinates(row)[axis])));
+    const std::size_t channel = channel_of.at(row.wavelength_um), index = lattice.index(at);
+    if (seen[channel * lattice.size() + index]) return nullptr;  // then another is missing
+    seen[channel * lattice.size() + index] = true;
+    values[channel][index] = samples.side == Side::reflection ? row.brdf : row.btdf;
+  }
+  return std::make_shared<const LatticeTable>(std::move(lattice), samples.channels, std::move(values));
+}
+
+Zero zero_of(const Content& content, const ReadOptions& options, FaultList& faults) {
+  std::set<double> scatter_azimuths;
+  for (const Row& row : content.rows) scatter_azimuths.insert(row.scatter_azimuth_deg);
+  Zero out;
+  out.rings = scatter_azimuths.size() == 1;
+  const std::string zero = options.assumed("zero_azimuth").value_or(out.rings || content.across ? "across" : "");
   if (zero != "across" && zero != "fixed")
     faults.add(faults.file(), zero.empty() ? "azimuths of scatter without their zero" : fmt::format("--assume zero_azimuth={}", zero),
                "--assume zero_azimuth=across (the plane of incidence) or zero_azimuth=fixed (the sample's x axis)");
-  faults.raise();
+  out.across = zero == "across";
+  return out;
+}
+
+Dataset samples_of(const std::vector<Row>& rows, Side side, const Zero& zero, FaultList& faults) {
+  std::map<double, std::size_t> channel_of;
+  std::set<double> azimuths;
+  for (const Row& row : rows) channel_of.emplace(row.wavelength_um, 0), azimuths.insert(row.azimuth_deg);
+  Dataset out;
+  out.side = side;
   for (auto& [um, place] : channel_of) {
     // Micrometres are written with few digits: 0.351 um is 351 nm, not 350.99999999999994.
     constexpr double digits = 1e9;
@@ -126,17 +163,18 @@ Dataset read_tracepro(const std::filesystem::path& path, const ReadOptions& opti
     out.channels.push_back(single_channel(channel_of.size() == 1 ? "value" : fmt::format("{}nm", nm)).front());
     out.channels.back().wavelength_in_nm = out.channels.back().wavelength_out_nm = nm;
   }
-  out.symmetry = {.isotropic = zero == "across" && azimuths.size() == 1, .bilateral = symmetric && azimuths.size() == 1};
+  out.symmetry = {.isotropic = zero.across && azimuths.size() == 1, .bilateral = zero.rings && azimuths.size() == 1};
   out.f.resize(out.channels.size());
   // A table of one azimuth is a table of rings; these azimuths show them to whatever reads samples.
   const std::vector<double> around = even_angles(0, 330, 30);
   std::map<std::array<double, 4>, std::size_t> places;
   for (const Row& row : rows)
-    for (const double azimuth : symmetric&& row.beta > 0 ? around : std::vector<double>{row.scatter_azimuth_deg}) {
-      const Angle axis = zero == "fixed" ? degrees(0) : degrees(row.azimuth_deg + 90);
-      const auto pose = pose_of(row, azimuth, axis, out.side);
-      if (!pose) {
-        ++out.masked.below_horizon;
+    for (const double azimuth : zero.rings&& row.beta > 0 ? around : std::vector<double>{row.scatter_azimuth_deg}) {
+      const Angle axis = zero.across ? degrees(row.azimuth_deg + 90) : degrees(0);
+      const auto pose = from_beta_offset(degrees(row.incidence_deg), degrees(row.azimuth_deg), row.beta, axis + degrees(azimuth), side);
+      const double value = side == Side::reflection ? row.brdf : row.btdf;
+      if (!pose || std::isnan(value)) {
+        ++(pose ? out.masked.nan : out.masked.below_horizon);
         continue;
       }
       const auto [place, added] =
@@ -146,23 +184,35 @@ Dataset read_tracepro(const std::filesystem::path& path, const ReadOptions& opti
         for (auto& column : out.f) column.push_back(std::numeric_limits<double>::quiet_NaN());
       }
       double& f = out.f[channel_of.at(row.wavelength_um)][place->second];
-      const double value = out.side == Side::reflection ? row.brdf : row.btdf;
       if (!std::isnan(f) && f != value) faults.add_at(row.line, "a second value for a direction", "every direction once per wavelength");
       f = value;
     }
-  if (faults.empty() && out.size() == 0) faults.add(faults.file(), "no direction above the horizon", "at least one");
-  faults.raise();
-  out.provenance["source"] = path.filename().string();
+  if (faults.empty() && out.size() == 0) faults.add(faults.file(), "no direction above the horizon that has a value", "at least one");
   return out;
 }
+
+}  // namespace
 
 bool recognises_tracepro(std::string_view head, std::uintmax_t) { return head.starts_with(title); }
 
 Opened open_tracepro(const std::filesystem::path& path, const ReadOptions& options) {
-  Opened out = opened_samples("tracepro", std::make_shared<const Dataset>(read_tracepro(path, options)));
-  out.info.insert(out.info.begin(), {{"holds", out.dataset->side == Side::reflection ? "f (BRDF)" : "f (BTDF)"},
+  FaultList faults(path.string());
+  const std::string bytes = read_file(path);
+  const Content content = read_rows(bytes, faults);
+  faults.raise();
+  const Side side = chosen_side(content.rows, options, faults);
+  const Zero zero = zero_of(content, options, faults);
+  faults.raise();
+  Dataset samples = samples_of(content.rows, side, zero, faults);
+  faults.raise();
+  samples.provenance["source"] = path.filename().string();
+  auto table = table_of(content.rows, samples, zero);
+  Opened out = opened_samples("tracepro", std::make_shared<const Dataset>(std::move(samples)));
+  out.info.insert(out.info.begin(), {{"holds", side == Side::reflection ? "f (BRDF)" : "f (BTDF)"},
                                      {"unit", "1/sr"},
-                                     {"nodes", "at samples, by |beta - beta0| and its azimuth"}});
+                                     {"nodes", table ? "a grid of incidence, |beta - beta0| and its azimuth, linear between them"
+                                                     : "at samples, by |beta - beta0| and its azimuth"}});
+  if (table) out.brdf = std::move(table);
   return out;
 }
 
@@ -194,7 +244,7 @@ ExportNotes write_tracepro(const Opened& source, const std::filesystem::path& pa
     for (const double beta : betas)
       for (const double azimuth : azimuths) {
         rows.push_back({.incidence_deg = incidence, .beta = beta, .scatter_azimuth_deg = azimuth});
-        const auto pose = pose_of(rows.back(), azimuth, degrees(90), side);
+        const auto pose = from_beta_offset(degrees(incidence), degrees(0), beta, degrees(90 + azimuth), side);
         if (!pose) {
           ++notes.n_below_horizon;
           continue;

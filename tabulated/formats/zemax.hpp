@@ -42,6 +42,7 @@ constexpr std::string_view zemax_wavelength_comment = "Wavelength (nm) = ";
 /// not say in which sense they turn: `--assume rotation=counter-clockwise|clockwise`, the azimuth of the light being 270° ± rotation
 /// (files of ours say it). `--assume wavelength_nm=NUMBER` names the wavelength, which
 /// files say in a comment at most.
+/// A file that is one of a set, a channel each (zemax_set.hpp), is read with the others.
 /// Trap: `TIS` is what the author of the file computed; it scales what OpticStudio scatters, and some leave out cos theta_o.
 /// Throws Error(input) with all faults.
 std::shared_ptr<const ZemaxTable> read_zemax(const std::filesystem::path& path, const ReadOptions& options);
@@ -54,5 +55,8 @@ Opened open_zemax(const std::filesystem::path& path, const ReadOptions& options)
 /// straight lines between nodes err most. TIS is `total_scatter` of the source. Nodes beyond the horizon are 0; so are unknown and
 /// negative values.
 ExportNotes write_zemax(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);
+/// A monochrome file for each channel of the source, as it is: NAME-CHANNEL.bsdf (tabulated/formats/zemax_set.hpp); a source of one channel
+/// as above.
+ExportNotes write_zemax_set(const Opened& source, const std::filesystem::path& path, const WriteOptions& options);
 
 }  // namespace gonio::tabulated

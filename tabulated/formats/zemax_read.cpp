@@ -12,6 +12,7 @@
 #include "tabulated/formats/csv_text.hpp"
 #include "tabulated/formats/keyword_text.hpp"
 #include "tabulated/formats/zemax.hpp"
+#include "tabulated/formats/zemax_set.hpp"
 #include "tabulated/opened_samples.hpp"
 #include "tabulated/total_scatter.hpp"
 
@@ -195,7 +196,8 @@ bool recognises_zemax(std::string_view head, std::uintmax_t) {
 }
 
 Opened open_zemax(const std::filesystem::path& path, const ReadOptions& options) {
-  const auto table = read_zemax(path, options);
+  std::vector<std::string> missing;
+  const auto table = whole_zemax_set(read_zemax(path, options), path, options, missing);
   const SpecularGrid& grid = table->grid();
   const ZemaxRemarks& remarks = table->remarks();
   Dataset samples = table->samples();
@@ -226,6 +228,8 @@ Opened open_zemax(const std::filesystem::path& path, const ReadOptions& options)
                              grid.rotation_deg.size(), grid.incidence_deg.size(), grid.azimuth_deg.size(), grid.radial_deg.size())},
        {"TIS of the file", tis_words(remarks.tis.front(), grid)},
        {"integral of f cos theta_o", tis_words(ours, grid)}});
+  if (!missing.empty())
+    out.info.emplace_back("missing", fmt::format("the other channels of the set: no {} beside this file", fmt::join(missing, ", ")));
   out.brdf = table;
   return out;
 }

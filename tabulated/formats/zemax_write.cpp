@@ -2,13 +2,17 @@
 // Writing tabular scatter files of Zemax OpticStudio.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <system_error>
+#include <utility>
 
 #include "brdf/error.hpp"
 #include "data-schemas/write_file.hpp"
 #include "tabulated/formats/csv_text.hpp"
 #include "tabulated/formats/zemax.hpp"
+#include "tabulated/formats/zemax_set.hpp"
 #include "tabulated/radial_grid.hpp"
 #include "tabulated/total_scatter.hpp"
 #include "tabulated/values_to_write.hpp"
@@ -90,25 +94,9 @@ SpecularGrid grid_for(const Opened& source, const WriteOptions& options) {
   return grid;
 }
 
-}  // namespace
-
-ExportNotes write_zemax(const Opened& source, const std::filesystem::path& path, const WriteOptions& options) {
-  ExportNotes notes;
-  notes.files = {path};
-  if (const auto* table = dynamic_cast<const ZemaxTable*>(source.brdf.get())) {
-    notes.n_nodes = table->grid().size();
-    notes.n_below_horizon = source.masked.below_horizon;
-    notes.facts = {{"grid", grid_words(table->grid())},
-                   {"values", "those of the source file, unchanged"},
-                   {"TIS", "those of the source file; of the file / integral of f cos theta_o: " + tis_difference(*table)}};
-    write_file_atomically(path, text_of(*table, table->remarks()));
-    return notes;
-  }
-  if (!source.brdf)
-    throw Error(ErrorKind::input, {path.string(), fmt::format("a {} that cannot be evaluated", source.format), "a model or a table"});
-  const ChannelMap map = one_channel_or_xyz(source.brdf->channels());
+/// A table of the source on a grid of the format, and what is to be said of it.
+ZemaxTable table_of(const Opened& source, const ChannelMap& map, const WriteOptions& options, ExportNotes& notes) {
   SpecularGrid grid = grid_for(source, options);
-
   std::vector<GonioAngles> poses;
   std::vector<std::size_t> index;
   for (std::size_t p = 0; p < grid.rotation_deg.size(); ++p)
@@ -127,8 +115,6 @@ ExportNotes write_zemax(const Opened& source, const std::filesystem::path& path,
   ZemaxRemarks remarks;
   remarks.comments = {fmt::format(" written by gonio from {}", source.format)};
   if (grid.rotation_deg.size() > 1) remarks.comments.emplace_back(zemax_rotation_comment);
-  if (map.to.size() == 1 && map.to[0].wavelength_in_nm)
-    remarks.comments.push_back(fmt::format(" {}{}", zemax_wavelength_comment, *map.to[0].wavelength_in_nm));
   remarks.tis.resize(map.to.size());
   std::vector<double> mapped(map.to.size());
   for (std::size_t p = 0; p < grid.rotation_deg.size(); ++p)
@@ -140,14 +126,115 @@ ExportNotes write_zemax(const Opened& source, const std::filesystem::path& path,
   notes.facts.emplace_back("grid", grid_words(grid));
   notes.facts.emplace_back("angles", "about the specular direction: radial 0 is specular, azimuth 0 towards the normal, counter-clockwise");
   notes.facts.emplace_back("TIS", "integral of f cos theta_o over the hemisphere of the source");
-  if (map.to.size() > 1)
-    notes.facts.emplace_back("reader", "OpticStudio takes X, Y and Z as three monochrome tables and asks which one to use");
   if (grid.rotation_deg.size() > 1) notes.facts.emplace_back("reader", "older versions of OpticStudio take one sample rotation only");
   if (notes.n_below_horizon > 0) notes.lost.emplace_back("nodes beyond the horizon are 0");
   if (notes.n_unknown + notes.n_negative > 0) notes.lost.emplace_back("unknown and negative values are 0");
-  if (map.to.size() == 1 && map.to[0].wavelength_in_nm)
-    notes.facts.emplace_back("wavelength", "in a comment: the format has no place for it");
-  write_file_atomically(path, text_of(SpecularTable(std::move(grid), map.to, std::move(values)), remarks));
+  if (source.uncertain || (source.dataset && source.dataset->has_uncertainty()))
+    notes.lost.emplace_back("uncertainties have no place in the format");
+  return {std::move(grid), map.to, std::move(values), std::move(remarks)};
+}
+
+/// The channel alone, its wavelength in a comment.
+ZemaxTable channel_of(const ZemaxTable& table, std::size_t c) {
+  ZemaxRemarks remarks{table.remarks().comments, {table.remarks().tis[c]}};
+  if (table.channels()[c].wavelength_in_nm)
+    remarks.comments.push_back(fmt::format(" {}{}", zemax_wavelength_comment, *table.channels()[c].wavelength_in_nm));
+  return {table.grid(), {table.channels()[c]}, {table.values()[c]}, std::move(remarks)};
+}
+
+void note_wavelength(ExportNotes& notes) { notes.facts.emplace_back("wavelength", "in a comment: the format has no place for it"); }
+
+void note_long_names(ExportNotes& notes) {
+  constexpr std::size_t longest_name = 60;
+  for (const std::filesystem::path& file : notes.files)
+    if (file.filename().string().size() > longest_name) {
+      notes.facts.emplace_back("reader", "OpticStudio takes names of at most 60 characters: rename the file");
+      return;
+    }
+}
+
+void require_evaluable(const Opened& source, const std::filesystem::path& path) {
+  if (!source.brdf)
+    throw Error(ErrorKind::input, {path.string(), fmt::format("a {} that cannot be evaluated", source.format), "a model or a table"});
+}
+
+/// The source as a table that one file can hold: a single channel, or X, Y, Z.
+const ZemaxTable* own_table(const Opened& source) {
+  const auto* table = dynamic_cast<const ZemaxTable*>(source.brdf.get());
+  if (table == nullptr || table->channels().size() == 1) return table;
+  const Channels& channels = table->channels();
+  return channels.size() == 3 && channels[0].name == "X" && channels[1].name == "Y" && channels[2].name == "Z" ? table : nullptr;
+}
+
+void note_own_table(const Opened& source, const ZemaxTable& table, ExportNotes& notes) {
+  notes.n_nodes = table.grid().size();
+  notes.n_below_horizon = source.masked.below_horizon;
+  notes.facts = {{"grid", grid_words(table.grid())},
+                 {"values", "those of the source file, unchanged"},
+                 {"TIS", "those of the source file; of the file / integral of f cos theta_o: " + tis_difference(table)}};
+}
+
+}  // namespace
+
+ExportNotes write_zemax(const Opened& source, const std::filesystem::path& path, const WriteOptions& options) {
+  ExportNotes notes;
+  notes.files = {path};
+  note_long_names(notes);
+  if (const ZemaxTable* table = own_table(source)) {
+    note_own_table(source, *table, notes);
+    write_file_atomically(path, text_of(*table, table->remarks()));
+    return notes;
+  }
+  require_evaluable(source, path);
+  const ChannelMap map = one_channel_or_xyz(source.brdf->channels());
+  ZemaxTable table = table_of(source, map, options, notes);
+  if (map.to.size() > 1)
+    notes.facts.emplace_back("reader", "OpticStudio takes X, Y and Z as three monochrome tables and asks which one to use");
+  if (map.to.size() == 1 && map.to[0].wavelength_in_nm) note_wavelength(notes);
+  if (map.to.size() == 1) table = channel_of(table, 0);
+  write_file_atomically(path, text_of(table, table.remarks()));
+  return notes;
+}
+
+ExportNotes write_zemax_set(const Opened& source, const std::filesystem::path& path, const WriteOptions& options) {
+  require_evaluable(source, path);
+  const Channels channels = source.brdf->channels();
+  if (channels.size() == 1) return write_zemax(source, path, options);
+  ExportNotes notes;
+  const auto* own = dynamic_cast<const ZemaxTable*>(source.brdf.get());
+  if (own != nullptr) note_own_table(source, *own, notes);
+  ChannelMap same{channels, std::vector<double>(channels.size() * channels.size()), ""};
+  for (std::size_t c = 0; c < channels.size(); ++c) same.weights[c * channels.size() + c] = 1;
+  const ZemaxTable table = own != nullptr ? *own : table_of(source, same, options, notes);
+
+  const std::vector<std::filesystem::path> files = zemax_set_files(path, channels);
+  std::vector<std::string> texts;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const ZemaxTable one = channel_of(table, c);
+    ZemaxSetPlace place{c + 1, channels.size(), channels[c].name, {}};
+    for (const std::filesystem::path& file : files) place.files.push_back(file.filename().string());
+    ZemaxRemarks remarks = one.remarks();
+    for (const std::string& comment : zemax_set_comments(place)) remarks.comments.push_back(comment);
+    texts.push_back(text_of(one, remarks));
+  }
+  try {
+    for (std::size_t c = 0; c < files.size(); ++c) {
+      write_file_atomically(files[c], texts[c]);
+      notes.files.push_back(files[c]);
+    }
+  } catch (...) {
+    std::error_code ignored;
+    for (const std::filesystem::path& file : notes.files) std::filesystem::remove(file, ignored);
+    throw;
+  }
+  note_long_names(notes);
+  notes.facts.emplace_back("files",
+                           fmt::format("{}, one per channel, each monochrome; gonio reads the set from any of them", files.size()));
+  notes.facts.emplace_back("reader", "OpticStudio scatters with the one file a surface names: a run per channel");
+  if (std::any_of(channels.begin(), channels.end(), [](const Channel& channel) { return channel.wavelength_in_nm.has_value(); }))
+    note_wavelength(notes);
+  else
+    notes.lost.emplace_back("which wavelength a channel stands for: the files name the channel in a comment");
   return notes;
 }
 

@@ -14,7 +14,7 @@ using namespace gonio::tabulated;
 namespace {
 
 constexpr LatticeCoordinates every_kind[] = {LatticeCoordinates::spherical, LatticeCoordinates::specular,
-                                             LatticeCoordinates::half_difference, LatticeCoordinates::distorted};
+                                             LatticeCoordinates::half_difference, LatticeCoordinates::distorted, LatticeCoordinates::beta};
 
 std::vector<double> steps(double last, int count) {
   std::vector<double> out;
@@ -27,6 +27,10 @@ Lattice lattice(LatticeCoordinates kind, bool isotropic) {
   out.coordinates = kind;
   out.nodes_deg = {steps(85, 17), isotropic ? std::vector<double>{0} : steps(330, 11),
                    steps(kind == LatticeCoordinates::specular ? 180 : 85, 36), steps(355, 71)};
+  if (kind == LatticeCoordinates::beta) {
+    out.nodes_deg[2] = steps(2, 100);
+    return out;
+  }
   if (!isotropic) out.nodes_deg[2] = steps(kind == LatticeCoordinates::specular ? 170 : 85, 17), out.nodes_deg[3] = steps(345, 23);
   return out;
 }
@@ -62,12 +66,13 @@ double worst_difference(const LatticeTable& at, bool isotropic) {
 
 TEST_CASE("A table gives its values at the nodes and the function between them, in every kind of coordinates") {
   // Second derivatives of at most 1 over steps of 5 and 15 degrees: (15 deg)^2 / 8 on each of the axes.
-  constexpr double linear = 0.02, rounding = 1e-9;
+  // Beside the horizon cosines bend without bound over the sines of `beta`.
+  constexpr double linear = 0.02, beside_horizon = 0.1, rounding = 1e-9;
   for (const LatticeCoordinates kind : every_kind)
     for (const bool isotropic : {true, false}) {
       INFO(static_cast<int>(kind) << isotropic);
       const LatticeTable at = table(lattice(kind, isotropic), isotropic);
-      CHECK(worst_difference(at, isotropic) < linear);
+      CHECK(worst_difference(at, isotropic) < (kind == LatticeCoordinates::beta ? beside_horizon : linear));
       for (std::size_t k = 0; k < at.lattice().size(); k += 1013) {
         const GonioAngles node = at.lattice().angles(k);
         // At the pole all azimuths are one direction, and interpolation takes what stands at one of them.

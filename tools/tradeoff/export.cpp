@@ -99,7 +99,9 @@ Measured measure_export(const Effort& effort) {
           double bytes = 0;
           for (const auto& written : notes.files) bytes += static_cast<double>(std::filesystem::file_size(written));
           point.bytes = bytes;
-          const tabulated::Opened back = tabulated::open_brdf(file);
+          tabulated::ReadOptions answers;
+          answers.assume = notes.assume;
+          const tabulated::Opened back = tabulated::open_brdf(notes.files.front(), answers);
           if (!back.brdf) continue;
           const std::size_t channels = back.brdf->channels().size();
           std::vector<double> values(pairs.wi.size() * channels), seconds;

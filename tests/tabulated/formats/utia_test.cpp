@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "brdf/analytic_brdf.hpp"
+#include "tabulated/formats/exr_image.hpp"
+#include "tests/tabulated/damaged_text.hpp"
 #include "tests/tabulated/faults_text.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -17,7 +19,7 @@ using test::faults_of;
 
 namespace {
 
-constexpr std::size_t file_size = 1990656;
+constexpr std::size_t file_size = 1990656, side = 288;
 
 Opened model() {
   Opened out;
@@ -98,4 +100,78 @@ TEST_CASE("Without an answer, with a wrong one, a wrong size or numbers that are
     CHECK(faults_of([&] { open_brdf(scratch.file("y", bytes.substr(0, length)), forced); }).find("1990656") != std::string::npos);
   // Text of that very size is no table.
   CHECK(faults_of([&] { open_brdf(scratch.file("y", std::string(file_size, 'x')), {}); }).find("utia") == std::string::npos);
+}
+
+TEST_CASE("A picture has a row per direction of light and a column per direction of view, and says as little of its numbers") {
+  const test::TemporaryFolder scratch;
+  const ExportNotes notes = write_utia_exr(model(), scratch / "x.exr", {});
+  CHECK(notes.assume.at("values") == "f");
+  const ExrImage image = read_exr_image(scratch / "x.exr");
+  REQUIRE(image.width == side);
+  REQUIRE(image.height == side);
+  // theta_i 30, phi_i 15; theta_o 45, phi_o 202.5.
+  const std::vector<double> f = model().brdf->eval(Direction::spherical(30_deg, 15_deg), Direction::spherical(45_deg, 202.5_deg));
+  constexpr double to_float = 6e-8;
+  for (const auto& [name, values] : image.channels)
+    CHECK(values[(48 * 2 + 2) * side + 48 * 3 + 27] == Approx(f[name == "R" ? 0 : name == "G" ? 1 : 2]).epsilon(to_float));
+
+  write_utia(model(), scratch / "x.bin", {});
+  const Opened picture = open_brdf(scratch / "x.exr", with("f")), plain = open_brdf(scratch / "x.bin", with("f"));
+  CHECK(picture.format == "utia-exr");
+  REQUIRE(picture.dataset->size() == plain.dataset->size());
+  double worst = 0;
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t k = 0; k < plain.dataset->size(); ++k)
+      worst = std::max(worst, std::fabs(picture.dataset->f[c][k] / plain.dataset->f[c][k] - 1));
+  CHECK(worst < to_float);
+  write_utia_exr(picture, scratch / "again.exr", {});
+  CHECK((test::read_file(scratch / "again.exr") == test::read_file(scratch / "x.exr")));
+
+  CHECK(faults_of([&] { open_brdf(scratch / "x.exr"); }).find("--assume values=f") != std::string::npos);
+  CHECK(faults_of([&] { open_brdf(scratch / "x.exr", with("g")); }).find("usage|") == 0);
+}
+
+TEST_CASE("Pictures of another size, without colours or with numbers that are none are no table") {
+  const test::TemporaryFolder scratch;
+  ExrImage image{side, side, {}, {}};
+  for (const char* name : {"R", "G", "B"}) image.channels.emplace_back(name, std::vector<float>(side * side, 0.5F));
+  const auto faults = [&] {
+    write_exr_image(image, scratch / "x.exr");
+    ReadOptions forced = with("display");
+    forced.format = "utia-exr";
+    return faults_of([&] { open_brdf(scratch / "x.exr", forced); });
+  };
+  CHECK(faults().empty());
+  image.channels[1].second[side + 2] = NAN;
+  CHECK(faults().find("pixel (2, 1) of G|nan") != std::string::npos);
+  image.channels.pop_back();
+  CHECK(faults().find("no channel B") != std::string::npos);
+  CHECK(faults_of([&] { open_brdf(scratch / "x.exr", {}); }).find("utia") == std::string::npos);
+  image = {2, 3, {{"R", std::vector<float>(6)}, {"G", std::vector<float>(6)}, {"B", std::vector<float>(6)}}, {}};
+  CHECK(faults().find("2 x 3 pixels|288 x 288") != std::string::npos);
+}
+
+TEST_CASE("No damaged table of UTIA, plain or a picture, does more than raise an error") {
+  const test::TemporaryFolder scratch;
+  write_utia(model(), scratch / "x.bin", {});
+  ExrImage image{side, side, {}, {}};
+  for (const char* name : {"R", "G", "B"}) image.channels.emplace_back(name, std::vector<float>(side * side, 0.5F));
+  write_exr_image(image, scratch / "x.exr");
+  const std::string letters = std::string("\0\1\x7f\x80\xf0\xff", 6);
+  struct Variant {
+    const char* seed;
+    Opened (*open)(const std::filesystem::path&, const ReadOptions&);
+    int rounds;
+  };
+  for (const Variant& variant : {Variant{"x.bin", open_utia, 300}, Variant{"x.exr", open_utia_exr, 3000}}) {
+    int turn = 0;
+    const auto [read, refused] =
+        test::read_damaged({test::read_file(scratch / variant.seed)}, letters, 20260711, variant.rounds, [&](const std::string& bytes) {
+          const Opened opened = variant.open(scratch.file("damaged", bytes), with(++turn % 2 == 0 ? "f" : "display"));
+          opened.dataset->require_consistent();
+        });
+    INFO(variant.seed);
+    CHECK(read > 30);
+    CHECK(refused > 150);
+  }
 }
