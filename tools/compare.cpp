@@ -13,12 +13,15 @@
 #include "tools/brdf_source.hpp"
 #include "tools/compare_document.hpp"
 #include "tools/difference_picture.hpp"
+#include "tools/measured_table.hpp"
 #include "tools/verbs.hpp"
 
 namespace gonio::tools {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int threads = 2;  // for the table of samples
 
 /// The files to write, from --out and --image.
 struct Outputs {
@@ -61,6 +64,7 @@ int compare_verb(const Arguments& arguments, Console& console) {
   std::string a, b, folder, image;
   std::vector<std::string> parameters_a, parameters_b;
   double theta_max_deg = fitting::compared_up_to_deg;
+  bool nearest = false;
   ReadFlags flags;
   app.add_option("A", a, "A model's name or any BRDF file: the reference")->required();
   app.add_option("B", b, "A model's name or any BRDF file")->required();
@@ -70,21 +74,35 @@ int compare_verb(const Arguments& arguments, Console& console) {
       ->check(CLI::Range(1.0, 90.0));
   app.add_option("--out", folder, "Folder for compare.json, difference.png and difference.exr");
   app.add_option("--image", image, "The relative difference as NAME.png or NAME.exr");
+  app.add_flag("--nearest", nearest, "Between samples the mean of the nearest ones by distance instead of their ratio to a guide");
   flags.add_to(app);
   add_common(app, console);
   if (!parse(app, arguments)) return 0;
   const Outputs outputs = outputs_of(folder, image);
 
-  const tabulated::Opened opened_a = open_source(a, parameters_a, flags), opened_b = open_source(b, parameters_b, flags);
+  tabulated::Opened opened_a = open_source(a, parameters_a, flags), opened_b = open_source(b, parameters_b, flags);
   std::vector<HashedInput> inputs;
   for (const auto& [source, opened] : {std::pair(&a, &opened_a), std::pair(&b, &opened_b)}) {
     if (opened->format != "model") inputs.push_back(hash_in_background(*source));
     console.note_masked(*source, opened->masked);
     if (!opened->brdf && !opened->dataset) throw Error(ErrorKind::input, {*source, opened->format + " that cannot be evaluated", "a BRDF"});
   }
-  const fitting::CompareSubject subject_a{opened_a.brdf, opened_a.dataset}, subject_b{opened_b.brdf, opened_b.dataset};
   const Angle theta_max = degrees(theta_max_deg);
-  const fitting::ComparedValues values = fitting::compared_values(subject_a, subject_b, theta_max);
+  fitting::ComparedValues values =
+      fitting::compared_values({opened_a.brdf, opened_a.dataset}, {opened_b.brdf, opened_b.dataset}, theta_max);
+  // Samples of one side that were asked for values between them.
+  const bool asked_a = values.at == fitting::ComparedAt::samples_of_b && is_scattered(opened_a);
+  const bool asked_b = values.at == fitting::ComparedAt::samples_of_a && is_scattered(opened_b);
+  if (!nearest && (asked_a || asked_b)) {
+    TableReport table;
+    tabulated::Opened& asked = asked_a ? opened_a : opened_b;
+    asked = measured_table(asked, {}, threads, table);
+    console.note(fmt::format("{}: {}", asked_a ? a : b, interpolation_line(table)));
+    if (const std::string warning = coverage_warning(table); !warning.empty())
+      console.note(fmt::format("{}: {}", asked_a ? a : b, warning));
+    values = fitting::compared_values({opened_a.brdf, opened_a.dataset}, {opened_b.brdf, opened_b.dataset}, theta_max);
+  }
+  const fitting::CompareSubject subject_a{opened_a.brdf, opened_a.dataset}, subject_b{opened_b.brdf, opened_b.dataset};
   const fitting::Comparison comparison = fitting::compare(values);
   if (comparison.n == 0) throw Error(ErrorKind::input, {a + " and " + b, "no direction at which both are known", "at least one"});
 

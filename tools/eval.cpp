@@ -11,10 +11,13 @@
 #include "brdf/analytic_brdf.hpp"
 #include "data-schemas/document.hpp"
 #include "tools/brdf_source.hpp"
+#include "tools/measured_table.hpp"
 #include "tools/verbs.hpp"
 
 namespace gonio::tools {
 namespace {
+
+constexpr int threads = 2;  // for the table of samples
 
 std::string printed(double value) { return std::isnan(value) ? "nan" : fmt::format("{:.17g}", value); }
 
@@ -56,25 +59,34 @@ std::vector<double> albedo_by_quadrature(const Brdf& brdf, const Direction& wi) 
 int eval_verb(const Arguments& arguments, Console& console) {
   CLI::App app(
       "Reads lines `theta_i phi_i theta_o phi_o` (degrees) from standard input and prints f per channel [1/sr, cosine not included],\n"
-      "17 digits, `nan` where nothing is known.",
+      "17 digits, `nan` where nothing is known. Samples are interpolated as their ratio to a guide, as `gonio export` does.",
       "eval");
   std::string source;
   std::vector<std::string> parameters;
-  bool albedo = false;
+  bool albedo = false, nearest = false;
   ReadFlags flags;
+  TableFlags table_flags;
   app.add_option("SOURCE", source, "A model's name or any BRDF file")->required();
   app.add_option("--param", parameters, "NAME=VALUE of the model")->take_all();
   app.add_flag("--albedo", albedo, "Reads `theta_i phi_i` and prints the directional albedo");
+  app.add_flag("--nearest", nearest, "Between samples the mean of the nearest ones by distance: faster, and worse at peaks");
   flags.add_to(app);
+  table_flags.add_interpolation_to(app);
   add_common(app, console);
   if (!parse(app, arguments)) return 0;
+  table_flags.imposed();
 
-  const tabulated::Opened opened = open_source(source, parameters, flags);
+  tabulated::Opened opened = open_source(source, parameters, flags);
+  TableReport table;
+  if (!nearest) opened = measured_table(opened, table_flags, threads, table);
+  if (const std::string line = interpolation_line(table); !line.empty()) console.note(fmt::format("{}: {}", source, line));
+  if (const std::string warning = coverage_warning(table); !warning.empty()) console.note(fmt::format("{}: {}", source, warning));
   if (!opened.brdf) throw Error(ErrorKind::input, {source, opened.format + " that cannot be evaluated", "a model or a table"});
   const auto* model = dynamic_cast<const AnalyticBrdf*>(opened.brdf.get());
 
-  Json rows = Json::array();
+  Json rows = Json::array(), uncertainties = Json::array(), coverages = Json::array();
   std::string line;
+  std::size_t n_values = 0, n_extrapolated = 0;
   for (int number = 1; std::getline(std::cin, line); ++number) {
     const auto first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;
@@ -89,7 +101,19 @@ int eval_verb(const Arguments& arguments, Console& console) {
                        : albedo_by_quadrature(*opened.brdf, Direction::spherical(degrees(n[0]), degrees(n[1])));
     } else {
       const GonioAngles angles{degrees(n[0]), degrees(n[1]), degrees(n[2]), degrees(n[3])};
-      values = model ? model->eval(angles) : opened.brdf->eval(angles.wi(), angles.wo());
+      if (opened.uncertain) {
+        const Direction wi = angles.wi(), wo = angles.wo();
+        values.resize(opened.brdf->channels().size());
+        std::vector<double> u(values.size());
+        Coverage coverage{};
+        opened.uncertain->eval_with_uncertainty({&wi, 1}, {&wo, 1}, values, u, {&coverage, 1});
+        ++n_values, n_extrapolated += coverage == Coverage::extrapolated ? 1 : 0;
+        Json row = Json::array();
+        for (const double one : u) row.push_back(std::isnan(one) ? Json() : Json(one));
+        uncertainties.push_back(std::move(row)), coverages.push_back(name(coverage));
+      } else {
+        values = model ? model->eval(angles) : opened.brdf->eval(angles.wi(), angles.wo());
+      }
     }
     if (console.json) {
       Json row = Json::array();
@@ -101,16 +125,20 @@ int eval_verb(const Arguments& arguments, Console& console) {
     for (const double value : values) text += (text.empty() ? "" : " ") + printed(value);
     console.print(text);
   }
+  if (n_extrapolated > 0)
+    console.note(fmt::format("{}: {} of {} values lie beyond the samples: guesses, bounded by energy", source, n_extrapolated, n_values));
   if (console.json) {
     Json channels = Json::array();
     for (const Channel& channel : opened.brdf->channels()) channels.push_back(channel.name);
     std::vector<HashedInput> inputs;
     if (opened.format != "model") inputs.push_back(hash_in_background(source));
-    console.print_json(Json::object({{"context", context(inputs, std::nullopt, opened.simulated)},
-                                     {"source", source},
-                                     {"quantity", albedo ? "directional_albedo" : "f"},
-                                     {"channels", channels},
-                                     {"values", rows}}));
+    Json document = Json::object({{"context", context(inputs, std::nullopt, opened.simulated)},
+                                  {"source", source},
+                                  {"quantity", albedo ? "directional_albedo" : "f"},
+                                  {"channels", channels},
+                                  {"values", rows}});
+    if (n_values > 0) document.set("u", std::move(uncertainties)), document.set("coverage", std::move(coverages));
+    console.print_json(document);
   }
   return 0;
 }

@@ -136,11 +136,14 @@ int export_verb(const Arguments& arguments, Console& console) {
   TableReport table;
   const bool tabulates = !all.empty() || needs_table(writable_format(to), table_flags);
   const tabulated::Opened source = tabulates ? measured_table(opened, table_flags, threads, table) : opened;
+  if (tabulates && all.empty()) require_covered(in, table_flags, table);
+  if (const std::string warning = coverage_warning(table); !warning.empty()) console.note(fmt::format("{}: {}", in, warning));
   if (all.empty()) {
     report(console, in, opened, table, export_file(writable_format(to), source, out, options, read_back));
     return 0;
   }
-  report_all(console, in, opened, table, all, export_all(source, all, std::filesystem::path(in).stem().string(), options));
+  report_all(console, in, opened, table, all,
+             export_all(source, all, std::filesystem::path(in).stem().string(), options, table_flags, table));
   return 0;
 }
 

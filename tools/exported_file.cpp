@@ -46,7 +46,7 @@ bool needs_table(const tabulated::Format& format, const TableFlags& flags) {
 }
 
 ExportedFile export_file(const tabulated::Format& format, const tabulated::Opened& source, const std::filesystem::path& out,
-                         const tabulated::WriteOptions& options, bool read_back) {
+                         const tabulated::WriteOptions& options, bool read_back, const std::string& guide) {
   ExportedFile file;
   file.format = &format;
   file.out = out;
@@ -59,18 +59,22 @@ ExportedFile export_file(const tabulated::Format& format, const tabulated::Opene
   if (read_back && is_renderer_format(format))
     file.not_read_back = "renderers read it, gonio does not";
   else if (read_back)
-    file.read_back = round_trip(source, file.notes, file.not_read_back);
+    file.read_back = round_trip(source, file.notes, guide, options.threads, file.not_read_back);
   return file;
 }
 
 std::vector<ExportedFile> export_all(const tabulated::Opened& source, const std::filesystem::path& folder, const std::string& stem,
-                                     const tabulated::WriteOptions& options) {
+                                     const tabulated::WriteOptions& options, const TableFlags& flags, const TableReport& table) {
   std::vector<ExportedFile> out;
+  std::string guide = "auto";
   for (const auto* list : {&tabulated::formats(), &renderer_formats()})
     for (const tabulated::Format& format : *list) {
       if (!format.write) continue;
       try {
-        out.push_back(export_file(format, source, folder / fmt::format("{}_{}{}", stem, format.name, format.extension), options, true));
+        if (needs_table(format, flags)) require_covered(stem, flags, table);
+        out.push_back(
+            export_file(format, source, folder / fmt::format("{}_{}{}", stem, format.name, format.extension), options, true, guide));
+        if (const auto& back = out.back().read_back; back && !back->guide.empty()) guide = back->guide;
       } catch (const Error& error) {
         if (error.kind() != ErrorKind::input && error.kind() != ErrorKind::usage) throw;
         ExportedFile refused;

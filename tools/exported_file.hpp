@@ -29,14 +29,15 @@ struct ExportedFile {
 /// Whether the format is written from values everywhere: neither from the samples as they are nor from a fit of its own to them.
 bool needs_table(const tabulated::Format& format, const TableFlags& flags);
 
-/// Writes, and reads back if asked to. Lets every error pass.
+/// Writes, and reads back if asked to, samples with this guide (TableFlags). Lets every error pass.
 ExportedFile export_file(const tabulated::Format& format, const tabulated::Opened& source, const std::filesystem::path& out,
-                         const tabulated::WriteOptions& options, bool read_back);
+                         const tabulated::WriteOptions& options, bool read_back, const std::string& guide = "auto");
 
 /// Every writable format into `folder`, as STEM_FORMAT and the extension; a format that refuses the data (Error of kind input or usage) has
-/// its reason, and no file. All of them are read back.
+/// its reason, and no file. All of them are read back, samples with the guide that was found for the first file of samples.
+/// So has a format of a table of which most would be extrapolated (require_covered).
 std::vector<ExportedFile> export_all(const tabulated::Opened& source, const std::filesystem::path& folder, const std::string& stem,
-                                     const tabulated::WriteOptions& options);
+                                     const tabulated::WriteOptions& options, const TableFlags& flags, const TableReport& table);
 
 /// Members `format`, `out`, `bytes`, `write_ms`, `notes`, `round_trip` (null if it was not asked for).
 Json::Members exported_members(const ExportedFile& file);

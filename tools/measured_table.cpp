@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -25,9 +26,15 @@ constexpr std::array auto_models{"lambert", "phong", "blinn-phong", "ggx-separab
 constexpr std::array auto_metrics{fitting::Metric::linear, fitting::Metric::cbrt};
 /// Of more samples than this, guides are fitted to this many and compared by what they predict of this many: a guide need not be better
 /// than its family, and to be told from another takes fewer predictions still.
-constexpr std::size_t fitted_samples = std::size_t{1} << 13, compared_samples = std::size_t{1} << 12;
+constexpr std::size_t fitted_samples = std::size_t{1} << 12, compared_samples = std::size_t{1} << 11;
 /// Pairs at which a source without samples is compared with itself after symmetry was imposed.
 constexpr std::size_t compared_pairs = 4000;
+
+/// Pairs at which a table of samples is asked how much of it is extrapolated, and the part from which on it is no table of the samples.
+constexpr std::size_t coverage_pairs = 2048;
+constexpr double mostly = 0.5;
+/// An incidence this near to the normal has no azimuth [deg].
+constexpr double at_normal_deg = 0.5;
 
 struct Candidate {
   TriedGuide tried;
@@ -105,6 +112,40 @@ std::shared_ptr<const Dataset> prepared(const Dataset& samples, const Symmetry& 
   return out;
 }
 
+/// Number k of a Kronecker sequence over the unit hypercube, by powers of the root of x^5 = x + 1.
+double kronecker(std::size_t k, double step) { return std::fmod(static_cast<double>(k) * step + 0.5, 1.0); }
+constexpr std::array kronecker_steps{0.8566748838545029, 0.733891856627126, 0.6287067210378087, 0.5385972572236101};
+
+double part_beyond(const UncertainBrdf& table, Side side) {
+  std::vector<Direction> wi, wo;
+  for (std::size_t k = 0; k < coverage_pairs; ++k) {
+    const auto direction = [&](std::size_t axis, double sign) {  // uniform in projected solid angle
+      const double r = std::sqrt(kronecker(k, kronecker_steps[axis])), phi = 2 * std::numbers::pi * kronecker(k, kronecker_steps[axis + 1]);
+      return Direction::trusted(r * std::cos(phi), r * std::sin(phi), sign * std::sqrt(1 - r * r));
+    };
+    wi.push_back(direction(0, 1)), wo.push_back(direction(2, side == Side::transmission ? -1 : 1));
+  }
+  std::vector<double> f(wi.size() * table.channels().size()), u(f.size());
+  std::vector<Coverage> coverage(wi.size());
+  table.eval_with_uncertainty(wi, wo, f, u, coverage);
+  const auto beyond = std::count_if(coverage.begin(), coverage.end(), [](Coverage how) { return how >= Coverage::extrapolated; });
+  return static_cast<double>(beyond) / coverage_pairs;
+}
+
+/// The azimuth of the light [deg] if all samples have the same; nothing if none has one.
+std::optional<double> one_azimuth(const Dataset& samples) {
+  std::optional<double> out;
+  for (const GonioAngles& pair : samples.angles) {
+    if (std::fabs(pair.theta_i.degrees()) < at_normal_deg) continue;
+    const Direction wi = pair.wi();
+    if (!out) out = wi.phi().degrees();
+    const Direction first = Direction::spherical(wi.theta(), degrees(*out));
+    constexpr double same = 1e-6;
+    if (std::hypot(wi.x() - first.x(), wi.y() - first.y()) > same) return std::nullopt;
+  }
+  return out;
+}
+
 /// The pairs at which what symmetry changes is told: the samples, or pairs spread over both hemispheres.
 std::pair<std::vector<GonioAngles>, std::vector<double>> compared(const tabulated::Opened& source) {
   std::pair<std::vector<GonioAngles>, std::vector<double>> out;
@@ -117,10 +158,9 @@ std::pair<std::vector<GonioAngles>, std::vector<double>> compared(const tabulate
     return out;
   }
   for (std::size_t k = 0; k < compared_pairs; ++k) {
-    const auto part = [&](double step) { return std::fmod(static_cast<double>(k) * step + 0.5, 1.0); };  // a Kronecker sequence
-    const auto theta = [](double u) { return degrees(radians(std::acos(1 - 0.8 * u)).degrees()); };      // to 78°
-    pairs.push_back({theta(part(0.8566748838545029)), degrees(360 * part(0.733891856627126)), theta(part(0.6287067210378087)),
-                     degrees(360 * part(0.5385972572236101))});
+    const auto theta = [](double u) { return degrees(radians(std::acos(1 - 0.8 * u)).degrees()); };  // to 78°
+    const auto part = [&](std::size_t axis) { return kronecker(k, kronecker_steps[axis]); };
+    pairs.push_back({theta(part(0)), degrees(360 * part(1)), theta(part(2)), degrees(360 * part(3))});
   }
   std::vector<Direction> wi, wo;
   for (const GonioAngles& pair : pairs) wi.push_back(pair.wi()), wo.push_back(pair.wo());
@@ -132,15 +172,27 @@ std::pair<std::vector<GonioAngles>, std::vector<double>> compared(const tabulate
 }  // namespace
 
 void TableFlags::add_to(CLI::App& app) {
+  add_interpolation_to(app);
+  app.add_flag("--resample", resample,
+               "Write the table made of the samples, on the grid of --size, where the format could keep the samples");
+}
+
+void TableFlags::add_interpolation_to(CLI::App& app) {
   app.add_option("--guide", guide,
                  "Samples are interpolated as their ratio to: auto (the best of a few fits), none, a model, or a BRDF file");
-  app.add_option("--extrapolate", extrapolate, "Beyond the samples and in masked regions: model (the guide, bounded by energy) or no")
+  app.add_option(
+         "--extrapolate", extrapolate,
+         "Beyond the samples and in masked regions: model (the guide, bounded by energy) or no. Without this flag model, but no file is "
+         "written of which most would be extrapolated")
       ->check(CLI::IsMember({"model", "no"}));
   app.add_option("--impose", impose, "Average over what is no property of the data: reciprocity, isotropy, bilateral (comma separated)");
   app.add_option("--mask-retro", mask_retro_deg, "Samples closer than this to the way back to the light lie in the detector's shadow [deg]")
       ->check(CLI::Range(0.0, 45.0));
-  app.add_flag("--resample", resample,
-               "Write the table made of the samples, on the grid of --size, where the format could keep the samples");
+}
+
+bool is_scattered(const tabulated::Opened& source) {
+  // The nodes of a table are samples too, but the table knows itself what lies between them.
+  return source.dataset && dynamic_cast<const tabulated::DirectionTable*>(source.brdf.get()) != nullptr;
 }
 
 Symmetry TableFlags::imposed() const {
@@ -162,13 +214,12 @@ tabulated::Opened measured_table(const tabulated::Opened& source, const TableFla
   const Symmetry imposed = flags.imposed();
   tabulated::Opened out = source;
   std::pair<std::vector<GonioAngles>, std::vector<double>> before;
-  // The nodes of a table are samples too, but the table knows itself what lies between them.
-  const bool scattered = source.dataset && dynamic_cast<const tabulated::DirectionTable*>(source.brdf.get()) != nullptr;
+  const bool scattered = is_scattered(source);
   if (imposed != Symmetry{} && source.brdf && !scattered) before = compared(source);
   if (!scattered && (flags.resample || imposed != Symmetry{})) out.dataset.reset();
   if (scattered) {
     const auto samples = prepared(*source.dataset, imposed, flags.mask_retro_deg, report.n_masked_retro);
-    const tabulated::GuidedTableOptions options{.extrapolate = flags.extrapolate == "model", .threads = threads};
+    const tabulated::GuidedTableOptions options{.extrapolate = flags.extrapolate != "no", .threads = threads};
     auto tried = candidates(flags.guide, *observe(samples), threads);
     tabulated::GuidedSamples guided = tabulated::guided_samples(*samples, nullptr);
     std::size_t best = 0;
@@ -188,6 +239,7 @@ tabulated::Opened measured_table(const tabulated::Opened& source, const TableFla
     report.guides.front().alone = table->error().mean_alone, report.guides.front().incidence = table->error().mean_incidence;
     out.dataset = samples;
     before = compared(out);
+    if (!samples->symmetry.isotropic) report.one_azimuth_deg = one_azimuth(*samples);
     report.n_samples = samples->size() - report.n_masked_retro;
     report.n_left_out = table->error().n_left_out;
     report.extrapolated = options.extrapolate;
@@ -196,7 +248,10 @@ tabulated::Opened measured_table(const tabulated::Opened& source, const TableFla
     if (report.n_masked_retro == 0) out.dataset = source.dataset;
     if (flags.resample || imposed != Symmetry{}) out.dataset.reset();
   }
-  if (imposed == Symmetry{} || !out.brdf) return out;
+  if (imposed == Symmetry{} || !out.brdf) {
+    if (scattered) report.beyond = part_beyond(*out.uncertain, out.side);
+    return out;
+  }
   const auto table = std::make_shared<const tabulated::ImposedBrdf>(out.brdf, out.uncertain, imposed);
   const auto tell = [&](const char* name, const Symmetry& one) {
     report.imposed.emplace_back(
@@ -207,7 +262,33 @@ tabulated::Opened measured_table(const tabulated::Opened& source, const TableFla
   if (imposed.reciprocal) tell("reciprocity", {false, false, true});
   out.brdf = out.uncertain = table;
   out.observations.reset();
+  if (scattered) report.beyond = part_beyond(*out.uncertain, out.side);
   return out;
+}
+
+std::string coverage_warning(const TableReport& report) {
+  if (!(report.beyond > mostly)) return {};
+  std::string out = fmt::format("{:.0f} % of the pairs of directions lie beyond the samples", 100 * report.beyond);
+  if (report.one_azimuth_deg)
+    out += fmt::format(
+        ": their light came from one azimuth ({:g} deg), and nothing says that the sample is isotropic (if it is: --impose isotropy)",
+        *report.one_azimuth_deg);
+  return out;
+}
+
+void require_covered(const std::string& where, const TableFlags& flags, const TableReport& report) {
+  const std::string found = coverage_warning(report);
+  if (found.empty() || !flags.extrapolate.empty()) return;
+  throw Error(ErrorKind::input,
+              {where, found,
+               report.one_azimuth_deg ? "--impose isotropy, or --extrapolate model to write guesses, or no to leave them unknown"
+                                      : "--extrapolate model to write guesses, or no to leave them unknown"});
+}
+
+std::string interpolation_line(const TableReport& report) {
+  if (report.guides.empty()) return {};
+  const TriedGuide& guide = report.guides.front();
+  return fmt::format("interpolated as the ratio to {} (samples left out are predicted to {:.2g} %)", guide.name, 100 * guide.alone);
 }
 
 Json table_document(const TableReport& report) {
@@ -236,6 +317,8 @@ Json table_document(const TableReport& report) {
                        {"n_masked_retro", static_cast<std::int64_t>(report.n_masked_retro)},
                        {"n_left_out", static_cast<std::int64_t>(report.n_left_out)},
                        {"extrapolate", report.extrapolated ? "model" : "no"},
+                       {"part_beyond", report.beyond},
+                       {"one_azimuth_deg", report.one_azimuth_deg ? Json(*report.one_azimuth_deg) : Json()},
                        {"noise_estimated", report.noise_estimated},
                        {"imposed", std::move(imposed)}});
 }
@@ -256,7 +339,10 @@ std::vector<std::string> table_lines(const TableReport& report) {
       out.push_back(fmt::format("  {:<22} {} samples in the detector's shadow", "masked", report.n_masked_retro));
     if (report.noise_estimated)
       out.push_back(fmt::format("  {:<22} estimated from the spread of the samples, which state none", "uncertainty"));
-    out.push_back(fmt::format("  {:<22} {}", "beyond the samples", report.extrapolated ? "by the guide, bounded by energy" : "nothing"));
+    out.push_back(fmt::format("  {:<22} {:.0f} % of the pairs of directions: {}", "beyond the samples", 100 * report.beyond,
+                              report.extrapolated ? "by the guide, bounded by energy" : "nothing"));
+    if (report.one_azimuth_deg)
+      out.push_back(fmt::format("  {:<22} one azimuth of the light, {:g} deg, and no stated isotropy", "samples", *report.one_azimuth_deg));
   }
   for (const auto& [name, change] : report.imposed)
     out.push_back(fmt::format(

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "brdf/error.hpp"
+#include "tools/measured_table.hpp"
 
 namespace gonio::tools {
 namespace {
@@ -28,7 +29,8 @@ Direction direction(std::mt19937_64& random) {
 
 }  // namespace
 
-std::optional<RoundTrip> round_trip(const tabulated::Opened& source, const tabulated::ExportNotes& notes, std::string& reason) {
+std::optional<RoundTrip> round_trip(const tabulated::Opened& source, const tabulated::ExportNotes& notes, const std::string& guide,
+                                    int threads, std::string& reason) {
   if (!source.brdf) return reason = "the source cannot be evaluated", std::nullopt;
   const auto begin = std::chrono::steady_clock::now();
   tabulated::ReadOptions options;
@@ -40,6 +42,15 @@ std::optional<RoundTrip> round_trip(const tabulated::Opened& source, const tabul
     if (error.kind() != ErrorKind::input && error.kind() != ErrorKind::usage) throw;
     return reason = "not read back: " + std::string(error.faults().empty() ? error.what() : error.faults().front().found), std::nullopt;
   }
+  RoundTrip out;
+  if (is_scattered(back)) {
+    TableFlags flags;
+    flags.guide = guide;
+    TableReport table;
+    back = measured_table(back, flags, threads, table);
+    const std::string& name = table.guides.front().name;  // a model and its metric
+    out.guide = name.substr(0, name.find(' '));
+  }
   if (!back.brdf) return reason = fmt::format("read as {}, which cannot be evaluated", back.format), std::nullopt;
   const std::size_t channels = source.brdf->channels().size(), read = back.brdf->channels().size();
   if (channels != read && channels != 1) return reason = fmt::format("{} channels became {}", channels, read), std::nullopt;
@@ -49,7 +60,6 @@ std::optional<RoundTrip> round_trip(const tabulated::Opened& source, const tabul
   for (std::size_t k = 0; k < pairs; ++k) wi.push_back(direction(random)), wo.push_back(direction(random));
   std::vector<double> wanted(pairs * channels), got(pairs * read);
   back.brdf->eval(wi, wo, got);
-  RoundTrip out;
   out.read_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   source.brdf->eval(wi, wo, wanted);
   std::vector<double> errors;

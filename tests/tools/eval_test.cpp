@@ -53,3 +53,38 @@ TEST_CASE("eval gives JSON with the context first") {
   CHECK(document.members().front().first == "context");
   CHECK(document.at("values")[0][0].number() == Approx(0.5 / std::numbers::pi));
 }
+
+TEST_CASE("eval interpolates samples as their ratio to a guide, with uncertainty and coverage in the document, unless told otherwise") {
+  const test::TemporaryFolder folder;
+  std::string directions, rows =
+                              "# gonio samples 1\n# channel.1: value\n# symmetry: isotropic\n# side: "
+                              "reflection\ntheta_i_deg,phi_i_deg,theta_o_deg,phi_o_deg,value,u_value\n";
+  const AnalyticBrdf truth("phong", single_channel("value"), {{0.2, 0.3, 100}});
+  for (int ti = 10; ti <= 70; ti += 20)
+    for (int to = 0; to <= 80; to += 5)
+      for (int phi = 0; phi < 360; phi += 15) {
+        if (to == 0 && phi > 0) continue;
+        const double f = truth.eval(GonioAngles{degrees(ti), 0_deg, degrees(to), degrees(phi)})[0];
+        rows += std::to_string(ti) + ",0," + std::to_string(to) + "," + std::to_string(phi) + "," + std::to_string(f) + "," +
+                std::to_string(0.01 * f) + "\n";
+      }
+  test::write_file(folder / "samples.csv", rows);
+  const std::string peak = "40 0 40 180\n", source = "eval '" + (folder / "samples.csv").string() + "'";
+  const double wanted = truth.eval(GonioAngles{40_deg, 0_deg, 40_deg, 180_deg})[0];
+  const auto outcome = run_gonio(source + " --guide phong --json", peak + "88 0 88 0\n30 0 30 0\n");
+  REQUIRE(outcome.code == 0);
+  const Json document = outcome.json();
+  CHECK(document.at("values")[0][0].number() == Approx(wanted).epsilon(0.01));
+  CHECK(document.at("u")[0][0].number() > 0);
+  CHECK(document.at("u")[0][0].number() < 0.05 * wanted);
+  CHECK(document.at("coverage")[0].string() == "interpolated");
+  CHECK(document.at("coverage")[1].string() == "extrapolated");
+  CHECK(document.at("coverage")[2].string() == "measured");
+  CHECK(outcome.err.find("1 of 3 values lie beyond the samples") != std::string::npos);
+  CHECK(run_gonio(source + " --guide phong --extrapolate no", "88 0 88 0\n").out == "nan\n");
+  const auto nearest = run_gonio(source + " --nearest", peak);
+  CHECK(std::stod(nearest.out) < 0.7 * wanted);  // nobody told it that there is a peak
+  const auto compared =
+      run_gonio("compare phong --param-a rho_d=.2 --param-a rho_s=.3 --param-a s=100 '" + (folder / "samples.csv").string() + "'");
+  CHECK(compared.code == 0);
+}

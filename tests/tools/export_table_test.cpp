@@ -128,3 +128,42 @@ TEST_CASE("flags that do not go together are refused before anything is written"
   CHECK(run_gonio("export x.csv --to csv --out y --extrapolate yes").code == 2);
   CHECK(run_gonio("export x.csv --to csv --out y --mask-retro 90").code == 2);
 }
+
+TEST_CASE("Samples of one incident azimuth become no table of guesses unless isotropy or extrapolation is asked for") {
+  const test::TemporaryFolder folder;
+  std::string text = test::read_file(samples_in(folder));
+  const std::string stated = "# symmetry: isotropic\n";
+  text.erase(text.find(stated), stated.size());
+  test::write_file(folder / "one.csv", text);
+  const std::string source = quoted(folder / "one.csv") + " --guide blinn-phong --size paper",
+                    to = " --to rgl --out " + quoted(folder / "one.bsdf");
+  const auto refused = run_gonio("export " + source + to);
+  CHECK(refused.code == 3);
+  CHECK(refused.err.find("one azimuth (0 deg)") != std::string::npos);
+  CHECK(refused.err.find("--impose isotropy") != std::string::npos);
+  CHECK(!std::filesystem::exists(folder / "one.bsdf"));
+
+  const Json isotropic = exported(source + to + " --impose isotropy");
+  CHECK(isotropic.at("table").at("part_beyond").number() < 0.5);
+  CHECK(isotropic.at("table").at("one_azimuth_deg").is_null());
+  CHECK(isotropic.at("notes").at("n_extrapolated").number() < 0.5 * isotropic.at("notes").at("n_nodes").number());
+
+  const Json guessed = exported(source + to + " --extrapolate model");
+  CHECK(guessed.at("table").at("part_beyond").number() > 0.8);
+  CHECK(guessed.at("table").at("one_azimuth_deg").number() == 0);
+  CHECK(guessed.at("notes").at("n_extrapolated").number() > 0.5 * guessed.at("notes").at("n_nodes").number());
+
+  const Json all = exported(source + " --all " + quoted(folder / "all"));
+  const auto written = [&](const std::string& format) {
+    for (const Json& file : all.at("exports").elements())
+      if (file.at("format").string() == format) return true;
+    return false;
+  };
+  CHECK(written("csv"));  // keeps the samples
+  CHECK(written("mitsuba"));
+  CHECK(!written("rgl"));
+  std::size_t with_reason = 0;
+  for (const Json& one : all.at("refused").elements())
+    with_reason += one.at("reason").string().find("--impose isotropy") != std::string::npos;
+  CHECK(with_reason > 10);
+}
