@@ -11,8 +11,8 @@ namespace gonio::tabulated {
 namespace {
 
 constexpr double nothing_per_sr = 1e-6;
-/// Of the uncertainty of a mean: an error of quadrature that adds half a percent to it.
-constexpr double part_of_u = 0.1;
+/// Of the uncertainty of a mean: an error of quadrature that adds 3 % to it.
+constexpr double part_of_u = 0.25;
 
 }  // namespace
 

@@ -19,8 +19,8 @@ namespace gonio::tabulated {
 class CellMean {
  public:
   /// `orders` of the rules per dimension, increasing. A mean is settled when it differs from the one before by at most
-  /// `tolerance` of it, by a tenth of its own uncertainty where the source knows one (as if the errors of a cell went all one way), and by
-  /// 1e-6 1/sr, which is nothing beside any surface's 0.3; the three added up.
+  /// `tolerance` of it, by a quarter of its own uncertainty where the source knows one (as if the errors of a cell went all one way), and
+  /// by 1e-6 1/sr, which is nothing beside any surface's 0.3; the three added up.
   CellMean(const Opened& source, const ChannelMap& map, std::vector<std::size_t> orders, double tolerance);
 
   static constexpr std::size_t max_channels = 3, max_dimensions = 4;

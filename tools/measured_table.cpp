@@ -279,10 +279,12 @@ std::string coverage_warning(const TableReport& report) {
 void require_covered(const std::string& where, const TableFlags& flags, const TableReport& report) {
   const std::string found = coverage_warning(report);
   if (found.empty() || !flags.extrapolate.empty()) return;
-  throw Error(ErrorKind::input,
-              {where, found,
-               report.one_azimuth_deg ? "--impose isotropy, or --extrapolate model to write guesses, or no to leave them unknown"
-                                      : "--extrapolate model to write guesses, or no to leave them unknown"});
+  throw Error(
+      ErrorKind::input,
+      {where, found,
+       fmt::format("--impose {} if the sample has that symmetry, or --extrapolate model to write guesses, or no to leave them unknown",
+                   report.one_azimuth_deg ? "isotropy (and bilateral if one half of the azimuths was measured)"
+                                          : "bilateral (if one half of the azimuths was measured)")});
 }
 
 std::string interpolation_line(const TableReport& report) {
