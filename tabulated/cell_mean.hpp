@@ -19,7 +19,7 @@ namespace gonio::tabulated {
 class CellMean {
  public:
   /// `orders` of the rules per dimension, increasing. A mean is settled when it differs from the one before by at most
-  /// `tolerance` of it, by a quarter of its own uncertainty where the source knows one (as if the errors of a cell went all one way), and
+  /// `tolerance` of it, by half of its own uncertainty where the source knows one (as if the errors of a cell went all one way), and
   /// by 1e-6 1/sr, which is nothing beside any surface's 0.3; the three added up.
   CellMean(const Opened& source, const ChannelMap& map, std::vector<std::size_t> orders, double tolerance);
 
