@@ -90,6 +90,7 @@ struct Format {
   const char* extension = "";                 ///< of the files written, dot included
   bool adaptive = false;                      ///< `WriteOptions::error` chooses the grid
   std::vector<const char*> assumptions = {};  ///< keys of `ReadOptions::assume` that the reader understands
+  bool writes_samples = false;                ///< the source's own, where it has any: nothing is interpolated
 };
 const std::vector<Format>& formats();
 

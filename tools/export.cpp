@@ -134,12 +134,14 @@ int export_verb(const Arguments& arguments, Console& console) {
   const tabulated::Opened opened = tabulated::open_brdf(in, flags.options());
   console.note_masked(in, opened.masked);
   TableReport table;
-  const bool tabulates = !all.empty() || needs_table(writable_format(to), table_flags);
+  const bool interpolates = all.empty() && needs_table(writable_format(to), table_flags);
+  // What is read back is interpolated, and is held against the source interpolated alike.
+  const bool tabulates = !all.empty() || interpolates || read_back;
   const tabulated::Opened source = tabulates ? measured_table(opened, table_flags, threads, table) : opened;
-  if (tabulates && all.empty()) require_covered(in, table_flags, table);
+  if (interpolates) require_covered(in, table_flags, table);
   if (const std::string warning = coverage_warning(table); !warning.empty()) console.note(fmt::format("{}: {}", in, warning));
   if (all.empty()) {
-    report(console, in, opened, table, export_file(writable_format(to), source, out, options, read_back));
+    report(console, in, opened, table, export_file(writable_format(to), source, out, options, read_back, table_flags.guide));
     return 0;
   }
   report_all(console, in, opened, table, all,

@@ -41,8 +41,7 @@ bool is_renderer_format(const tabulated::Format& format) {
 
 bool needs_table(const tabulated::Format& format, const TableFlags& flags) {
   if (is_renderer_format(format)) return false;
-  const bool keeps_samples = std::string_view(format.name) == "csv" || std::string_view(format.name) == "brdf-exr";
-  return !keeps_samples || flags.resample || flags.imposed() != Symmetry{};
+  return !format.writes_samples || flags.resample || flags.imposed() != Symmetry{};
 }
 
 ExportedFile export_file(const tabulated::Format& format, const tabulated::Opened& source, const std::filesystem::path& out,
@@ -130,12 +129,17 @@ std::string exported_page(const std::vector<ExportedFile>& files, const std::str
     out += fmt::format("\n## Lost in {}\n\n", file.format->name);
     for (const std::string& sentence : file.notes.lost) out += "- " + sentence + "\n";
   }
-  bool first = true;
-  for (const ExportedFile& file : files)
-    if (!file.refused.empty()) {
-      if (std::exchange(first, false)) out += "\n## Refused\n\n";
-      out += fmt::format("- {}: {}\n", file.format->name, file.refused);
-    }
+  std::vector<std::pair<std::string, std::string>> refused;  // names by reason
+  for (const ExportedFile& file : files) {
+    if (file.refused.empty()) continue;
+    const auto same = std::find_if(refused.begin(), refused.end(), [&](const auto& entry) { return entry.second == file.refused; });
+    if (same == refused.end())
+      refused.emplace_back(file.format->name, file.refused);
+    else
+      same->first += std::string(", ") + file.format->name;
+  }
+  if (!refused.empty()) out += "\n## Refused\n\n";
+  for (const auto& [names, reason] : refused) out += fmt::format("- {}: {}\n", names, reason);
   return out;
 }
 
