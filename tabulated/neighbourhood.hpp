@@ -73,7 +73,7 @@ class Neighbourhoods {
   static constexpr std::size_t mutex_count = 64;
 
   const GuidedSamples& samples_;
-  const CorrelationRanges& ranges_;
+  CorrelationRanges ranges_;
   mutable std::vector<Bucket> buckets_;
   mutable std::array<std::mutex, mutex_count> mutexes_;
 };
