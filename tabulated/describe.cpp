@@ -15,7 +15,7 @@ std::string covered(const Dataset& dataset, Angle GonioAngles::*angle) {
     low = std::min(low, (angles.*angle).degrees());
     high = std::max(high, (angles.*angle).degrees());
   }
-  return fmt::format("{:.6g} to {:.6g} deg", low, high);
+  return low == high ? fmt::format("{:.6g} deg", low) : fmt::format("{:.6g} to {:.6g} deg", low, high);
 }
 
 std::string words(const CorrelatedComponent& component) { return fmt::format("{} u = {:.3g}", component.name, component.u); }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "brdf/error.hpp"
@@ -35,6 +36,20 @@ Node node_of(const GonioAngles& pose, Side side) {
   double turn = nearest(std::fmod(pose.phi_o.degrees() - pose.phi_i.degrees(), 360.0));
   if (turn < 0) turn += 360;
   return {nearest(pose.theta_i.degrees()), out, out == 0 || turn == 360 ? 0 : turn};
+}
+
+/// At theta_i = 0 azimuths without a sample, which there is at least one of, take the first known value: f does not depend on them.
+void fill_normal_incidence(const Lattice& lattice, std::vector<std::vector<double>>& values) {
+  const std::size_t azimuths = lattice.nodes_deg[3].size();
+  for (std::vector<double>& column : values)
+    for (std::size_t o = 0; o < lattice.nodes_deg[2].size(); ++o) {
+      const auto at = [&](std::size_t azimuth) -> double& { return column[lattice.index({0, 0, o, azimuth})]; };
+      std::size_t known = 0;
+      while (known < azimuths && std::isnan(at(known))) ++known;
+      if (known == azimuths) continue;
+      for (std::size_t k = 0; k < azimuths; ++k)
+        if (std::isnan(at(k))) at(k) = at(known);
+    }
 }
 
 }  // namespace
@@ -81,7 +96,8 @@ Opened opened_grid(std::string format, std::shared_ptr<const Dataset> samples) {
   Lattice lattice{.nodes_deg = {grid->theta_i_deg, {0}, grid->theta_o_deg, grid->phi_deg}, .offset_deg = {}};
   lattice.bilateral = samples->symmetry.bilateral && grid->phi_deg.back() <= 180;
   lattice.side = samples->side;
-  std::vector<std::vector<double>> values(samples->channels.size(), std::vector<double>(lattice.size()));
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::vector<double>> values(samples->channels.size(), std::vector<double>(lattice.size(), unknown));
   const auto place = [](const std::vector<double>& nodes, double angle) {
     // Angles that came through radians lie beside their node.
     const auto above = std::lower_bound(nodes.begin(), nodes.end(), angle - same_angle_deg);
@@ -96,6 +112,7 @@ Opened opened_grid(std::string format, std::shared_ptr<const Dataset> samples) {
       if (!normal) break;
     }
   }
+  if (grid->theta_i_deg.front() == 0) fill_normal_incidence(lattice, values);
   out.brdf = std::make_shared<const LatticeTable>(std::move(lattice), samples->channels, std::move(values));
   return out;
 }
@@ -113,7 +130,13 @@ std::optional<DirectionGrid> grid_of_samples(const Dataset& samples) {
   if (phi.empty()) return std::nullopt;
   const bool with_normal = *theta_o.begin() == 0;
   const std::size_t per_incidence = (theta_o.size() - (with_normal ? 1 : 0)) * phi.size() + (with_normal ? 1 : 0);
-  if (nodes.size() != theta_i.size() * per_incidence) return std::nullopt;
+  // Light along the normal has no azimuth: one sample of each theta_o is enough.
+  std::set<double> from_normal;
+  std::size_t n_from_normal = 0;
+  for (const Node& node : nodes)
+    if (node[0] == 0) from_normal.insert(node[1]), ++n_from_normal;
+  if (!from_normal.empty() && from_normal != theta_o) return std::nullopt;
+  if (nodes.size() - n_from_normal != (theta_i.size() - (from_normal.empty() ? 0 : 1)) * per_incidence) return std::nullopt;
   DirectionGrid out;
   out.theta_i_deg.assign(theta_i.begin(), theta_i.end());
   out.phi_i_deg = {0};

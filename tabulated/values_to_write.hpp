@@ -26,7 +26,8 @@ std::vector<std::vector<double>> values_to_write(const Opened& source, std::span
                                                  int threads, ExportNotes& notes);
 
 /// The lists of angles if the samples of an isotropic source are all nodes of a product of zenith angles and azimuths from that of the
-/// light, none missing (in transmission theta_o counts from -z); else nothing.
+/// light, none missing (in transmission theta_o counts from -z; at
+/// theta_i = 0 one azimuth is enough); else nothing.
 std::optional<DirectionGrid> grid_of_samples(const Dataset& samples);
 
 /// The samples as `opened_samples` hands them out; evaluated linearly between the nodes of their grid if `grid_of_samples` finds one.

@@ -92,8 +92,19 @@ Facts facts_of_brdf(const std::string& path, const ReadFlags& flags) {
   if (opened.masked.total() > 0)
     add("masked", fmt::format("{} ({} nan, {} missing, {} below horizon, {} blocked)", opened.masked.total(), opened.masked.nan,
                               opened.masked.missing, opened.masked.below_horizon, opened.masked.blocked));
+  add("side", opened.side == Side::transmission ? "transmission" : "reflection");
   add("simulated", opened.simulated ? "yes" : "no");
   return facts;
+}
+
+/// What fits a few lines: documents kept as text, and lists of hundreds of numbers, are for --json.
+std::string shortened(const std::string& value) {
+  constexpr std::size_t longest = 300;
+  if (value.size() <= longest) return value;
+  // Not within a letter of several bytes.
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char>(value[end]) & 0xC0) == 0x80) --end;
+  return fmt::format("{} ... ({} bytes, whole with --json)", value.substr(0, end), value.size());
 }
 
 }  // namespace
@@ -123,7 +134,9 @@ int info_verb(const Arguments& arguments, Console& console) {
         Json::object({{"context", context({hash_in_background(path)}, std::nullopt, false)}, {"file", path}, {"facts", members}}));
     return 0;
   }
-  for (const auto& [key, value] : facts) console.print(fmt::format("{:<22} {}", key, value));
+  std::size_t width = 22;
+  for (const auto& [key, value] : facts) width = std::max(width, key.size());
+  for (const auto& [key, value] : facts) console.print(fmt::format("{:<{}} {}", key, width, shortened(value)));
   return 0;
 }
 

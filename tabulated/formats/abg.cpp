@@ -13,6 +13,7 @@
 #include "brdf/error.hpp"
 #include "data-schemas/document.hpp"
 #include "data-schemas/write_file.hpp"
+#include "tabulated/describe.hpp"
 #include "tabulated/fault_list.hpp"
 #include "tabulated/formats/csv_text.hpp"
 #include "tabulated/formats/keyword_text.hpp"
@@ -128,13 +129,14 @@ Opened open_abg(const std::filesystem::path& path, const ReadOptions&) {
   faults.raise();
   Opened out;
   out.format = "abg";
-  out.info = {{"holds", "f"},
+  out.info = {{"holds", "f, cosine not included"},
               {"unit", "1/sr"},
               {"nodes", fmt::format("none: A, B, g at {} incidences, linear in cos theta_i between them", rows.size())},
               {"symmetry", rows.size() == 1 ? "isotropic, bilateral, reciprocal by construction" : "isotropic, bilateral by construction"}};
   for (const AbgRow& row : rows)
     out.info.emplace_back(fmt::format("{} deg", row.incidence_deg),
                           fmt::format("A {:.6g}, B {:.6g}, g {:.6g}", row.parameters.a, row.parameters.b, row.parameters.g));
+  out.info.emplace_back("channels", joined_names(channels));
   out.brdf = std::make_shared<const AbgTable>(std::move(rows), std::move(channels));
   return out;
 }

@@ -175,7 +175,7 @@ bool recognises_astm(std::string_view head, std::uintmax_t) {
 
 Opened open_astm(const std::filesystem::path& path, const ReadOptions& options) {
   Opened out = opened_grid("astm", std::make_shared<const Dataset>(read_astm(path, options)));
-  out.info.insert(out.info.begin(), {{"holds", "f"}, {"unit", "1/sr"}, {"nodes", "at samples, in radians"}});
+  out.info.insert(out.info.begin(), {{"holds", "f, cosine not included"}, {"unit", "1/sr"}, {"nodes", "at samples, in radians"}});
   return out;
 }
 

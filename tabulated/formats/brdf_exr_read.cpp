@@ -201,6 +201,9 @@ void read_optional_parts(ExrParts& file, SampleTable& table, FaultList& faults) 
 
 SampleTable read_parts(const std::filesystem::path& path, FaultList& faults) {
   ExrParts file(path, faults);
+  if (!file.part_named("value") && !file.part_named("incident") && !file.part_named("outgoing"))
+    throw Error(ErrorKind::input, {path.string(), "an OpenEXR picture without the parts of a table",
+                                   "parts value, uncertainty, count, incident and outgoing, or an atlas or a table of another kind"});
   const auto value = file.size_of("value"), uncertainty = file.size_of("uncertainty"), count = file.size_of("count"),
              incident = file.size_of("incident"), outgoing = file.size_of("outgoing");
   faults.raise();
@@ -256,8 +259,11 @@ Opened open_brdf_exr(const std::filesystem::path& path, const ReadOptions&) {
   if (dataset->size() == 0) throw Error(ErrorKind::input, {path.string(), "a table with every cell empty", "at least one value"});
   Opened out = opened_samples("brdf-exr", dataset);
   out.info.insert(out.info.begin(),
-                  {"table", fmt::format("{} incident x {} outgoing directions, {} of {} cells empty", table.incident.size(),
-                                        table.outgoing.size(), table.cell_count() - dataset->size(), table.cell_count())});
+                  {{"holds", "f, cosine not included"},
+                   {"unit", "1/sr"},
+                   {"nodes", "at the samples, one for each pair of directions"},
+                   {"table", fmt::format("{} incident x {} outgoing directions, {} of {} cells empty", table.incident.size(),
+                                         table.outgoing.size(), table.cell_count() - dataset->size(), table.cell_count())}});
   return out;
 }
 

@@ -67,7 +67,8 @@ bool recognises_cornell(std::string_view head, std::uintmax_t) {
 
 Opened open_cornell(const std::filesystem::path& path, const ReadOptions& options) {
   Opened out = opened_samples("cornell", std::make_shared<const Dataset>(read_cornell(path, options)));
-  out.info.insert(out.info.begin(), {{"holds", "f"}, {"unit", "1/sr"}, {"nodes", "at samples; specular is phi_s - phi_i = 180 deg"}});
+  out.info.insert(out.info.begin(),
+                  {{"holds", "f, cosine not included"}, {"unit", "1/sr"}, {"nodes", "at samples; specular is phi_s - phi_i = 180 deg"}});
   return out;
 }
 

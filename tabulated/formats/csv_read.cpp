@@ -214,7 +214,12 @@ bool recognises_csv(std::string_view head, std::uintmax_t) {
 }
 
 Opened open_csv(const std::filesystem::path& path, const ReadOptions& options) {
-  return opened_samples("csv", std::make_shared<const Dataset>(read_csv(path, options)));
+  Opened out = opened_samples("csv", std::make_shared<const Dataset>(read_csv(path, options)));
+  const bool is_f = options.quantity.value_or(Quantity::f) == Quantity::f;
+  out.info.insert(out.info.begin(), {{"holds", is_f ? "f, cosine not included" : fmt::format("{}, made f", name(*options.quantity))},
+                                     {"unit", "1/sr"},
+                                     {"nodes", "at the samples"}});
+  return out;
 }
 
 }  // namespace gonio::tabulated

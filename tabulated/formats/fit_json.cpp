@@ -58,6 +58,11 @@ bool recognises_fit_json(std::string_view head, std::uintmax_t) {
 }
 
 Opened open_fit_json(const std::filesystem::path& path, const ReadOptions&) {
+  const Json any_document = parse_json(read_file(path), path.string());
+  if (any_document.is_object() && any_document.get("model").is_null() && any_document.get("parameters").is_null())
+    throw Error(ErrorKind::input,
+                {path.string(), "a JSON document without a model and its parameters: another result, or the sidecar of a table",
+                 "the document of a fit, or a BRDF as bird-json or openmaterial-json"});
   const Json document = load_document(path, Schema::fit);
   const auto where = [&](const std::string& pointer) { return fmt::format("{}#/{}", path.string(), pointer); };
   const std::string &model_name = document.at("model").string(), &status = document.at("status").string();
@@ -85,7 +90,13 @@ Opened open_fit_json(const std::filesystem::path& path, const ReadOptions&) {
   Opened out;
   out.format = "fit-json";
   out.simulated = document.at("context").boolean_or("simulated", false);
-  out.info = {{"model", model_name}, {"status", status}, {"metric", document.at("metric").string()}, {"channels", joined_names(channels)}};
+  out.info = {{"holds", "parameters of a model of f, cosine not included"},
+              {"unit", "1/sr"},
+              {"nodes", "none: a formula"},
+              {"model", model_name},
+              {"status", status},
+              {"metric", document.at("metric").string()},
+              {"channels", joined_names(channels)}};
   for (std::size_t c = 0; c < channels.size(); ++c) {
     std::string text;
     for (std::size_t k = 0; k < model->parameters.size(); ++k)
@@ -93,6 +104,7 @@ Opened open_fit_json(const std::filesystem::path& path, const ReadOptions&) {
     out.info.emplace_back(fmt::format("parameters of {}", channels[c].name), text);
   }
   out.info.emplace_back("citation", model->citation);
+  out.info.emplace_back("symmetry", words(AnalyticBrdf(model_name, channels, values).symmetry()));
   out.info.emplace_back("simulated", out.simulated ? "yes" : "no");
   out.brdf = std::make_shared<const AnalyticBrdf>(model_name, channels, std::move(values));
   return out;

@@ -112,7 +112,7 @@ Dataset read_fred(const std::filesystem::path& path, const ReadOptions& options)
   out.side = side == "transmission" ? Side::transmission : Side::reflection;
   std::optional<Polar> specular;
   double first_azimuth = 0;
-  bool several_azimuths = false;
+  bool several_azimuths = false, sampled = false;
   for (auto line = next_line(); line; line = next_line()) {
     split(*line, separator_of(*line), fields);
     double numbers[3] = {0, 0, 0};
@@ -132,6 +132,7 @@ Dataset read_fred(const std::filesystem::path& path, const ReadOptions& options)
       continue;
     }
     if (fields.size() == 2) {
+      sampled = false;
       if (!specular) first_azimuth = polar->phi.degrees();
       // At the normal the azimuth says nothing.
       several_azimuths = several_azimuths || (polar->theta.degrees() > 0 && polar->phi.degrees() != first_azimuth);
@@ -150,8 +151,11 @@ Dataset read_fred(const std::filesystem::path& path, const ReadOptions& options)
     const Angle theta_o = out.side == Side::transmission ? degrees(180) - polar->theta : polar->theta;
     out.angles.push_back({specular->theta, specular->phi + degrees(180), theta_o, polar->phi});
     out.f[0].push_back(value);
+    sampled = true;
   }
   if (faults.empty() && out.size() == 0) faults.add(faults.file(), "no sample", "at least one");
+  if (faults.empty() && specular && !sampled)
+    faults.add_at(lines.number(), "the end of the file after a specular direction without samples", "samples of each");
   faults.raise();
   out.symmetry = {.isotropic = !several_azimuths, .bilateral = !several_azimuths && on_one_side(out.angles)};
   out.provenance = {{"source", path.filename().string()}};
@@ -169,8 +173,9 @@ bool recognises_fred(std::string_view head, std::uintmax_t) {
 
 Opened open_fred(const std::filesystem::path& path, const ReadOptions& options) {
   Opened out = opened_samples("fred", std::make_shared<const Dataset>(read_fred(path, options)));
-  out.info.insert(out.info.begin(),
-                  {{"holds", "f"}, {"unit", "1/sr"}, {"nodes", "at samples; FRED names the specular direction instead of wi"}});
+  out.info.insert(
+      out.info.begin(),
+      {{"holds", "f, cosine not included"}, {"unit", "1/sr"}, {"nodes", "at samples; FRED names the specular direction instead of wi"}});
   return out;
 }
 

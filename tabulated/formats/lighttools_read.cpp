@@ -214,9 +214,9 @@ bool recognises_lighttools(std::string_view head, std::uintmax_t) {
 
 Opened open_lighttools(const std::filesystem::path& path, const ReadOptions& options) {
   Opened out = opened_grid("lighttools", std::make_shared<const Dataset>(read_lighttools(path, options)));
-  out.info.insert(out.info.begin(), {{"holds", out.dataset->side == Side::reflection ? "f (BRDF)" : "f (BTDF)"},
-                                     {"unit", "1/sr"},
-                                     {"nodes", "at samples; absolute angles, the light at azimuth 90 deg"}});
+  out.info.insert(
+      out.info.begin(),
+      {{"holds", "f, cosine not included"}, {"unit", "1/sr"}, {"nodes", "at samples; absolute angles, the light at azimuth 90 deg"}});
   return out;
 }
 

@@ -178,7 +178,8 @@ Opened open_mbsdf(const std::filesystem::path& path, const ReadOptions& options)
                    {"unit", "1/sr"},
                    {"nodes", fmt::format("{0} x {0} x {1} cells, values {2}", block.zenith_count, block.azimuth_count,
                                          left ? "at left edges" : "in centres")},
-                   {"parts", fmt::format("{}{}", file.reflection ? "reflection " : "", file.transmission ? "transmission" : "")}});
+                   {"parts", fmt::format("{}{}{}", file.reflection ? "reflection" : "", file.reflection && file.transmission ? ", " : "",
+                                         file.transmission ? "transmission" : "")}});
   for (const auto& [key, value] : file.metadata) out.info.emplace_back(key, value);
   return out;
 }

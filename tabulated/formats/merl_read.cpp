@@ -144,7 +144,7 @@ Opened open_merl(const std::filesystem::path& path, const ReadOptions& options) 
               {"unit", "1/sr"},
               {"cells", fmt::format("90 x 90 x 180 (theta_h, theta_d, phi_d), {} masked", out.masked.missing)},
               {"channels", joined_names(table->channels())},
-              {"nodes", fmt::format("{} ({})", name(nodes), said_by)},
+              {"nodes", fmt::format("{} of the cells ({})", nodes == MerlNodes::left ? "left edges" : "centres", said_by)},
               {"colour", "linear, primaries undefined"},
               {"symmetry", words(table->symmetry())},
               {"simulated", out.simulated ? "yes" : "no"}};

@@ -192,9 +192,10 @@ Opened open_pab(const std::filesystem::path& path, const ReadOptions& options) {
   if (!header.up_phi.empty()) samples->provenance["upphi_deg"] = header.up_phi;
 
   Opened out = opened_samples("pab", samples);
-  out.info.insert(out.info.begin(), {{"holds", *header.quantity == Quantity::f ? "f" : "f cos theta_o (DSF), divided by the cosine"},
-                                     {"unit", "1/sr"},
-                                     {"nodes", "at samples, one incidence"}});
+  out.info.insert(out.info.begin(),
+                  {{"holds", *header.quantity == Quantity::f ? "f, cosine not included" : "f cos theta_o (DSF), divided by the cosine"},
+                   {"unit", "1/sr"},
+                   {"nodes", "at samples, one incidence"}});
   if (from_below) out.info.emplace_back("frame", "light from below: the sample turned over its x axis");
   return out;
 }

@@ -261,7 +261,7 @@ Opened open_radiance_xml(const std::filesystem::path& path, const ReadOptions& o
   Opened out;
   out.format = "radiance-xml";
   out.side = choice.block->side.kind;
-  out.info = {{"holds", "BSDF, cosine not included"}, {"unit", "1/sr"}};
+  out.info = {{"holds", "f (BSDF), cosine not included"}, {"unit", "1/sr"}};
   const bool tree = document.structure == WindowStructure::tree3 || document.structure == WindowStructure::tree4;
   if (tree)
     open_tree(document, choice, faults, out);

@@ -232,6 +232,7 @@ Opened open_rgl(const std::filesystem::path& path, const ReadOptions&) {
               {"half vectors", fmt::format("{} x {} per incidence", arrays.vndf_rows, arrays.vndf_columns)},
               {"normals", fmt::format("{} x {} azimuths and zenith angles of ndf and sigma", arrays.angle_rows, arrays.angle_columns)}};
   const auto table = std::make_shared<const RglTable>(std::move(arrays));
+  out.info.emplace_back("channels", joined_names(table->channels()));
   out.info.emplace_back("symmetry", words(table->symmetry()));
   out.observations = std::make_shared<const NodeObservations>(table);
   out.brdf = table;

@@ -259,9 +259,8 @@ bool recognises_speos(std::string_view head, std::uintmax_t) {
 
 Opened open_speos(const std::filesystem::path& path, const ReadOptions& options) {
   Opened out = opened_grid("speos", std::make_shared<const Dataset>(read_speos(path, options)));
-  out.info.insert(out.info.begin(), {{"holds", out.dataset->side == Side::reflection ? "f (BRDF)" : "f (BTDF)"},
-                                     {"unit", "1/sr"},
-                                     {"nodes", "at samples; azimuth 0 on the specular side"}});
+  out.info.insert(out.info.begin(),
+                  {{"holds", "f, cosine not included"}, {"unit", "1/sr"}, {"nodes", "at samples; azimuth 0 on the specular side"}});
   return out;
 }
 

@@ -95,7 +95,7 @@ std::vector<double> list_of(const Block& block, const std::string& key, double l
       faults.add_at(at->second.second, fmt::format("{} after {} in {}", number.value, out.back(), key), "increasing numbers");
     out.push_back(number.value);
   }
-  if (out.empty()) faults.add_at(at->second.second, key + " without numbers", "at least one");
+  if (out.empty() && faults.empty()) faults.add_at(at->second.second, key + " without numbers", "at least one");
   return out;
 }
 
@@ -112,7 +112,7 @@ Channels channels_of(const Block& block, FaultList& faults) {
       out.push_back(single_channel(fmt::format("{}nm", wavelength)).front());
       out.back().wavelength_in_nm = out.back().wavelength_out_nm = wavelength;
     }
-    if (out.empty()) faults.add_at(block.line, "a spectrum without WAVELENGTH_LIST", "the wavelengths in nm");
+    if (out.empty() && faults.empty()) faults.add_at(block.line, "a spectrum without WAVELENGTH_LIST", "the wavelengths in nm");
   } else {
     faults.add_at(block.line, fmt::format("COLOR_MODEL {}", excerpt(model)), "monochrome, rgb, xyz or spectrum");
   }
@@ -196,7 +196,7 @@ void read_text_numbers(Reader& reader, std::size_t entries, std::size_t channels
     for (const std::string_view field : fields) {
       const Number number = parse_number(field);
       if (number.fault != nullptr || std::isnan(number.value))
-        faults.add_at(reader.line_number(), fmt::format("{} {}", number.fault ? number.fault : "no number", excerpt(field)),
+        faults.add_at(reader.line_number(), fmt::format("{} {}", number.fault ? number.fault : "the number", excerpt(field)),
                       "a finite number");
       out.push_back(number.value);
     }
@@ -253,7 +253,7 @@ std::map<std::string, Block> read_blocks(std::string_view bytes, std::string& he
     if (out.contains(type)) faults.add_at(block.line, fmt::format("a second {}", type), "one block of a kind");
     out[type] = std::move(block);
   }
-  if (out.empty()) faults.add_at(reader.line_number(), "no block of data", "at least one");
+  if (out.empty() && faults.empty()) faults.add_at(reader.line_number(), "no block of data", "at least one");
   return out;
 }
 

@@ -208,7 +208,7 @@ Opened open_tracepro(const std::filesystem::path& path, const ReadOptions& optio
   samples.provenance["source"] = path.filename().string();
   auto table = table_of(content.rows, samples, zero);
   Opened out = opened_samples("tracepro", std::make_shared<const Dataset>(std::move(samples)));
-  out.info.insert(out.info.begin(), {{"holds", side == Side::reflection ? "f (BRDF)" : "f (BTDF)"},
+  out.info.insert(out.info.begin(), {{"holds", "f, cosine not included"},
                                      {"unit", "1/sr"},
                                      {"nodes", table ? "a grid of incidence, |beta - beta0| and its azimuth, linear between them"
                                                      : "at samples, by |beta - beta0| and its azimuth"}});

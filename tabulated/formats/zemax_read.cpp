@@ -222,7 +222,7 @@ Opened open_zemax(const std::filesystem::path& path, const ReadOptions& options)
   }
   out.info.insert(
       out.info.begin(),
-      {{"holds", grid.side == Side::reflection ? "f (BRDF)" : "f (BTDF)"},
+      {{"holds", "f, cosine not included"},
        {"unit", "1/sr"},
        {"nodes", fmt::format("{} rotations x {} incidences x {} azimuths x {} radial angles about the specular direction",
                              grid.rotation_deg.size(), grid.incidence_deg.size(), grid.azimuth_deg.size(), grid.radial_deg.size())},

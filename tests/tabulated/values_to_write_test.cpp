@@ -63,6 +63,13 @@ TEST_CASE("Samples on a grid are evaluated linearly between its nodes, others by
     for (const double phi : {0.0, 33.0, 181.0, 300.0})
       CHECK(std::abs(grid.brdf->eval(Direction::spherical(12_deg, 50_deg), Direction::spherical(degrees(theta), degrees(phi)))[0] - theta) <
             1e-9);
+  // Light along the normal needs no more than one azimuth.
+  Dataset once = samples;
+  once.f[0].erase(once.f[0].begin() + 2, once.f[0].begin() + 5);
+  once.angles.erase(once.angles.begin() + 2, once.angles.begin() + 5);
+  REQUIRE(grid_of_samples(once));
+  const Opened with_normal = opened_grid("csv", std::make_shared<const Dataset>(once));
+  CHECK(std::abs(with_normal.brdf->eval(Direction(), Direction::spherical(25_deg, 200_deg))[0] - 25) < 1e-9);
   samples.angles.pop_back(), samples.f[0].pop_back();
   const Opened scattered = opened_grid("csv", std::make_shared<const Dataset>(samples));
   CHECK(scattered.brdf->eval(samples.angles[3].wi(), samples.angles[3].wo())[0] == samples.f[0][3]);

@@ -14,8 +14,8 @@
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::test::replaced;
 using gonio::test::faults_of;
+using gonio::test::replaced;
 using gonio::test::TemporaryFolder;
 
 namespace {
@@ -107,6 +107,14 @@ TEST_CASE("The faults of a FRED file are named") {
   CHECK(faults("0 0 1", "0 0 1 7").find("4 numbers") != std::string::npos);
   CHECK(faults_of([&] { read("type bsdf_data\n"); }).find("the end of the file") != std::string::npos);
   CHECK(faults_of([&] { read("type bsdf_data\nformat angles=deg bsdf=value\n0 0\n"); }).find("no sample") != std::string::npos);
+}
+
+TEST_CASE("A file that ends after a specular direction is not whole") {
+  const TemporaryFolder scratch;
+  const std::string whole = "type bsdf_data\nformat angles=deg bsdf=value scale=1\n0 0\n10 0 0.5\n20 0\n30 0 0.4\n";
+  CHECK(open_brdf(scratch.file("a.txt", whole)).dataset->size() == 2);
+  CHECK(faults_of([&] { open_brdf(scratch.file("b.txt", whole.substr(0, whole.size() - 5))); }).find("without samples") !=
+        std::string::npos);
 }
 
 TEST_CASE("No damaged FRED file does more than raise an error") {

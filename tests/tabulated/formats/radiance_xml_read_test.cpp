@@ -85,7 +85,7 @@ TEST_CASE("The block is chosen by kind and side; the default is reflection, back
   CHECK(file.brdf->eval(down_x, up_y)[0] == 13);
   CHECK(contains(said(file, "block"), "Reflection Back of Visible (default"));
   CHECK(said(file, "missing blocks") == "Transmission Back");
-  CHECK(said(file, "holds") == "BSDF, cosine not included");
+  CHECK(said(file, "holds") == "f (BSDF), cosine not included");
   // The front is seen with the sheet turned over its x axis: +y is -y of the file, patch 4.
   const Opened front = opened(text, {{"side", "front"}});
   CHECK(front.brdf->eval(down_x, up_y)[0] == 2 * (4 * 5 + 3));
