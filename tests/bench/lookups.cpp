@@ -8,7 +8,6 @@
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -28,22 +27,17 @@
 #include "tabulated/lookup_table.hpp"
 #include "tabulated/open.hpp"
 #include "tests/bench/synthetic_files.hpp"
+#include "tests/bench/thread_clock.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
+using bench::cpu_seconds;
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// Of this thread alone.
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 constexpr std::size_t side = 128, pairs = side * side, repeats = 64;
 

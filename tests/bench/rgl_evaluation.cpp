@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // RGL files: bench_rgl prints how long the standard size takes to write, and what a look-up costs beside a direct scalar transcription of
 // the published formulas on the same arrays, both on one thread.
-#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,23 +14,18 @@
 
 #include "brdf/analytic_brdf.hpp"
 #include "tabulated/formats/rgl.hpp"
+#include "tests/bench/thread_clock.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace gonio;
 using namespace gonio::tabulated;
+using bench::cpu_seconds;
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-/// Of this thread alone: other programs do not count.
-double cpu_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
-}
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());

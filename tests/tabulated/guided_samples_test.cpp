@@ -6,6 +6,7 @@
 
 #include "brdf/error.hpp"
 #include "tests/tabulated/measured_model.hpp"
+#include "tests/tabulated/one_channel.hpp"
 
 #include "tests/check.hpp"
 
@@ -16,30 +17,21 @@ namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-Dataset samples(std::vector<GonioAngles> angles, std::vector<double> f, std::vector<double> u = {}) {
-  Dataset out;
-  out.channels = single_channel("value");
-  out.angles = std::move(angles);
-  out.f = {std::move(f)};
-  if (!u.empty()) out.u = {std::move(u)};
-  return out;
-}
-
 }  // namespace
 
 TEST_CASE("Repeats become their weighted mean with the larger of the stated and the observed uncertainty") {
   const GonioAngles a{30_deg, 0_deg, 30_deg, 180_deg}, b{30_deg, 0_deg, 50_deg, 180_deg};
-  const GuidedSamples agreeing = guided_samples(samples({a, a, b}, {1.0, 1.1, 5}, {0.1, 0.2, 1}), nullptr);
+  const GuidedSamples agreeing = guided_samples(test::one_channel({a, a, b}, {1.0, 1.1, 5}, {0.1, 0.2, 1}), nullptr);
   REQUIRE(agreeing.means.size() == 2);
   CHECK(agreeing.means.f[0][0] == Approx((1.0 / 0.01 + 1.1 / 0.04) / 125));
   CHECK(agreeing.means.u[0][0] == Approx(1 / std::sqrt(125.0)));
-  const GuidedSamples disagreeing = guided_samples(samples({a, a, b}, {1.0, 3.0, 5}, {0.1, 0.1, 1}), nullptr);
+  const GuidedSamples disagreeing = guided_samples(test::one_channel({a, a, b}, {1.0, 3.0, 5}, {0.1, 0.1, 1}), nullptr);
   CHECK(disagreeing.means.u[0][0] == Approx(1));  // half the difference, not 0.07
-  CHECK(std::isnan(guided_samples(samples({a, a}, {1, 2}), nullptr).means.u[0][0]));
+  CHECK(std::isnan(guided_samples(test::one_channel({a, a}, {1, 2}), nullptr).means.u[0][0]));
 }
 
 TEST_CASE("Partners by symmetry are places of the same sample, and only by a flag") {
-  Dataset data = samples({{30_deg, 0_deg, 50_deg, 140_deg}}, {1});
+  Dataset data = test::one_channel({{30_deg, 0_deg, 50_deg, 140_deg}}, {1});
   CHECK(guided_samples(data, nullptr).places->size() == 1);
   data.symmetry.bilateral = true;
   CHECK(guided_samples(data, nullptr).places->size() == 2);
@@ -50,7 +42,7 @@ TEST_CASE("Partners by symmetry are places of the same sample, and only by a fla
 }
 
 TEST_CASE("A partner that was measured too is averaged with the sample") {
-  Dataset data = samples({{30_deg, 0_deg, 50_deg, 140_deg}, {50_deg, 140_deg, 30_deg, 0_deg}}, {1, 3});
+  Dataset data = test::one_channel({{30_deg, 0_deg, 50_deg, 140_deg}, {50_deg, 140_deg, 30_deg, 0_deg}}, {1, 3});
   CHECK(guided_samples(data, nullptr).means.size() == 2);
   data.symmetry.reciprocal = true;
   const GuidedSamples both = guided_samples(data, nullptr);
@@ -61,8 +53,8 @@ TEST_CASE("A partner that was measured too is averaged with the sample") {
 
 TEST_CASE("The rest is the ratio where the guide is above the floor and the difference where it vanishes, at values below 0 too") {
   const AnalyticBrdf guide = test::model("phong", {0, 1, 1000});  // zero off the lobe
-  const Dataset data = samples({{30_deg, 0_deg, 30_deg, 180_deg}, {30_deg, 0_deg, 60_deg, 0_deg}, {30_deg, 0_deg, 70_deg, 0_deg}},
-                               {2 * guide.eval({30_deg, 0_deg, 30_deg, 180_deg})[0], 0.01, -0.003});
+  const Dataset data = test::one_channel({{30_deg, 0_deg, 30_deg, 180_deg}, {30_deg, 0_deg, 60_deg, 0_deg}, {30_deg, 0_deg, 70_deg, 0_deg}},
+                                         {2 * guide.eval({30_deg, 0_deg, 30_deg, 180_deg})[0], 0.01, -0.003});
   const GuidedSamples out = guided_samples(data, &guide);
   const double floor = out.floor[0];
   CHECK(floor == Approx(0.0003));
@@ -73,18 +65,18 @@ TEST_CASE("The rest is the ratio where the guide is above the floor and the diff
 
 TEST_CASE("Rows without a value are masked directions; nothing but them, or a guide of other channels, is refused") {
   const GuidedSamples out =
-      guided_samples(samples({{30_deg, 0_deg, 30_deg, 180_deg}, {30_deg, 0_deg, 30_deg, 0_deg}}, {1, no_value}), nullptr);
+      guided_samples(test::one_channel({{30_deg, 0_deg, 30_deg, 180_deg}, {30_deg, 0_deg, 30_deg, 0_deg}}, {1, no_value}), nullptr);
   CHECK(out.places->size() == 1);
   CHECK(out.masked->size() == 1);
-  CHECK_THROWS_AS(guided_samples(samples({{30_deg, 0_deg, 30_deg, 0_deg}}, {no_value}), nullptr), Error);
+  CHECK_THROWS_AS(guided_samples(test::one_channel({{30_deg, 0_deg, 30_deg, 0_deg}}, {no_value}), nullptr), Error);
   const AnalyticBrdf rgb("lambert", rgb_channels(), {{0.1}, {0.1}, {0.1}});
-  CHECK_NOTHROW(guided_samples(samples({{30_deg, 0_deg, 30_deg, 0_deg}}, {1}), nullptr));
-  Dataset two = samples({{30_deg, 0_deg, 30_deg, 0_deg}}, {1});
+  CHECK_NOTHROW(guided_samples(test::one_channel({{30_deg, 0_deg, 30_deg, 0_deg}}, {1}), nullptr));
+  Dataset two = test::one_channel({{30_deg, 0_deg, 30_deg, 0_deg}}, {1});
   CHECK_THROWS_AS(guided_samples(two, &rgb), Error);
 }
 
 TEST_CASE("A sample at normal incidence belongs to every azimuth of an isotropic surface") {
-  Dataset data = samples({{0_deg, 0_deg, 40_deg, 0_deg}}, {1});
+  Dataset data = test::one_channel({{0_deg, 0_deg, 40_deg, 0_deg}}, {1});
   data.symmetry.isotropic = true;
   const GuidedSamples out = guided_samples(data, nullptr);
   std::vector<Neighbour> found;

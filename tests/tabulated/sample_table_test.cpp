@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "tests/tabulated/faults_text.hpp"
+#include "tests/tabulated/one_channel.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include "tests/check.hpp"
@@ -18,20 +19,11 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double rounding_only = 1e-15;
 
-Dataset samples(std::vector<GonioAngles> angles, std::vector<double> f, std::vector<double> u = {}) {
-  Dataset out;
-  out.channels = single_channel("value");
-  out.angles = std::move(angles);
-  out.f = {std::move(f)};
-  if (!u.empty()) out.u = {std::move(u)};
-  return out;
-}
-
 }  // namespace
 
 TEST_CASE("Rows are incident and columns outgoing directions in order, and a cell nobody measured is NaN with count 0") {
-  const SampleTable table =
-      tabulate(samples({{30_deg, 0_deg, 50_deg, 180_deg}, {10_deg, 0_deg, 40_deg, 180_deg}, {10_deg, 0_deg, 50_deg, 180_deg}}, {3, 1, 2}));
+  const SampleTable table = tabulate(
+      test::one_channel({{30_deg, 0_deg, 50_deg, 180_deg}, {10_deg, 0_deg, 40_deg, 180_deg}, {10_deg, 0_deg, 50_deg, 180_deg}}, {3, 1, 2}));
   REQUIRE(table.incident.size() == 2);
   REQUIRE(table.outgoing.size() == 2);
   CHECK(table.incident[0].theta_deg == 10);
@@ -48,15 +40,15 @@ TEST_CASE("Rows are incident and columns outgoing directions in order, and a cel
 
 TEST_CASE("Repeats become their weighted mean where u is known, else their plain mean") {
   const GonioAngles same{30_deg, 0_deg, 50_deg, 180_deg};
-  const SampleTable weighted = tabulate(samples({same, same}, {1, 4}, {1, 0.5}));
+  const SampleTable weighted = tabulate(test::one_channel({same, same}, {1, 4}, {1, 0.5}));
   CHECK(weighted.f[0][0] == Approx((1 + 4 * 4) / 5.0).epsilon(rounding_only));
   CHECK(weighted.u[0][0] == Approx(1 / std::sqrt(5)).epsilon(rounding_only));
   CHECK(weighted.count[0][0] == 2);
   CHECK(samples_of(weighted).extra.at("n")[0] == 2);
-  const SampleTable plain = tabulate(samples({same, same}, {1, 4}, {1, unknown}));
+  const SampleTable plain = tabulate(test::one_channel({same, same}, {1, 4}, {1, unknown}));
   CHECK(plain.f[0][0] == 2.5);
   CHECK(std::isnan(plain.u[0][0]));
-  const SampleTable partial = tabulate(samples({same, same}, {1, unknown}, {0.3, unknown}));
+  const SampleTable partial = tabulate(test::one_channel({same, same}, {1, unknown}, {0.3, unknown}));
   CHECK(partial.f[0][0] == 1);
   CHECK(partial.u[0][0] == 0.3);
   CHECK(partial.count[0][0] == 1);
@@ -64,7 +56,7 @@ TEST_CASE("Repeats become their weighted mean where u is known, else their plain
 
 TEST_CASE("Poses that miss their asked direction by counts of the drive are one row, and come back as they were") {
   const double count = 1e-6;
-  const Dataset in = samples(
+  const Dataset in = test::one_channel(
       {{30_deg, 0_deg, 50_deg, 180_deg}, {degrees(30 + count), degrees(-count), degrees(60 - count), degrees(180 + count)}}, {1, 2});
   const SampleTable table = tabulate(in);
   CHECK(table.incident.size() == 1);
@@ -80,7 +72,7 @@ TEST_CASE("Poses that miss their asked direction by counts of the drive are one 
 }
 
 TEST_CASE("Scattered samples make no table") {
-  Dataset scattered = samples({}, {});
+  Dataset scattered = test::one_channel({}, {});
   for (int k = 0; k < 5000; ++k) {
     scattered.angles.push_back({degrees(0.01 * k), 0_deg, degrees(90 - 0.01 * k), 180_deg});
     scattered.f[0].push_back(1);
