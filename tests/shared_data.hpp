@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace gonio::test {
 
@@ -17,13 +18,11 @@ inline std::optional<std::filesystem::path> shared_file(const std::filesystem::p
   return std::nullopt;
 }
 
-/// A file of measured data: below GONIO_DATA if that is set, else `data` of the shared material.
-inline std::optional<std::filesystem::path> data_file(const std::filesystem::path& relative) {
-  if (const char* variable = std::getenv("GONIO_DATA")) {
-    const std::filesystem::path path = std::filesystem::path(variable) / relative;
-    return std::filesystem::exists(path) ? std::optional(path) : std::nullopt;
-  }
-  return shared_file(std::filesystem::path("data") / relative);
-}
+/// A file of measured data: below GONIO_DATA if that is set, else `data` of the shared material. Where it is missing the test that asked
+/// says that it is skipped, and has to return.
+std::optional<std::filesystem::path> measured_data(const std::filesystem::path& relative);
+
+/// The file of measured_data in quotes for the shell, or "".
+std::string measured_argument(const std::filesystem::path& relative);
 
 }  // namespace gonio::test

@@ -33,11 +33,8 @@ TEST_CASE("what is no schema is an internal error", "[schema_validator]") {
 TEST_CASE("every schema of the list is built in and can be used", "[schema_validator]") {
   for (const gonio::Schema schema : gonio::every_schema) {
     const std::string file = std::string(name(schema)) + ".schema.json";
-    if (gonio::schema_file_text(file).empty()) {
-      WARN(file << " is not there");
-      continue;
-    }
     INFO(file);
+    REQUIRE_FALSE(gonio::schema_file_text(file).empty());
     CHECK_FALSE(gonio::SchemaValidator(gonio::expanded_schema(file)).accepts(Json()));
     CHECK(gonio::parse_json(gonio::schema_text(schema), file).at("$id").string() == file);
   }

@@ -15,15 +15,6 @@ using test::run_gonio;
 
 namespace {
 
-/// The file in quotes for the shell, or "" and a word about it.
-std::string measured(const std::string& name) {
-  SUCCEED();  // so that a skipped test is not one without assertions
-  const auto path = test::data_file(name);
-  if (path) return "'" + path->string() + "'";
-  WARN("skipped: no measured data at " << name << ", set GONIO_DATA");
-  return "";
-}
-
 /// `gonio import` of a file with these flags.
 Dataset imported(const std::string& file, const std::string& flags, std::string* notes = nullptr) {
   const test::TemporaryFolder folder;
@@ -41,9 +32,10 @@ const std::string rt300s_columns =
 }  // namespace
 
 TEST_CASE("RT-300S EC1, raw minus blank, has its published means at receive 0") {
-  const std::string file = measured("loft_rt300s/raw_csv/ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
+  const std::string file = test::measured_argument("loft_rt300s/raw_csv/ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
   if (file.empty()) return;
-  const Dataset data = imported(file, rt300s_columns + " --blank " + measured("loft_rt300s/raw_csv/blank_v2o0_20250911.csv"));
+  const Dataset data =
+      imported(file, rt300s_columns + " --blank " + test::measured_argument("loft_rt300s/raw_csv/blank_v2o0_20250911.csv"));
   CHECK(data.size() == 2508);
 
   std::map<double, std::pair<double, int>> at_normal;
@@ -61,7 +53,7 @@ TEST_CASE("RT-300S EC1, raw minus blank, has its published means at receive 0") 
 }
 
 TEST_CASE("CEA's retro-reflective tape imports without flags: rows at 90 degrees masked, two peaks of different nature") {
-  const std::string file = measured("alta_retro/retro-3M-jaune.dat");
+  const std::string file = test::measured_argument("alta_retro/retro-3M-jaune.dat");
   if (file.empty()) return;
   std::string notes;
   const Dataset data = imported(file, "", &notes);
@@ -81,7 +73,7 @@ TEST_CASE("CEA's retro-reflective tape imports without flags: rows at 90 degrees
 }
 
 TEST_CASE("NIST's PTFE imports with one channel per wavelength and is nearly Lambertian") {
-  const std::string file = measured("nist_ptfe/PTFE.data.csv");
+  const std::string file = test::measured_argument("nist_ptfe/PTFE.data.csv");
   if (file.empty()) return;
   const std::string columns =
       "--columns wavelength_um=lambda,theta_i_deg=thetai,phi_i_deg=phi,theta_o_deg=thetar,phi_o_deg=phir,value=f_r11";
@@ -107,7 +99,7 @@ TEST_CASE("NIST's PTFE imports with one channel per wavelength and is nearly Lam
 }
 
 TEST_CASE("A material of the RGL database goes through info, eval, check and fit") {
-  const std::string file = measured("rgl/cm_military_green_rgb.bsdf");
+  const std::string file = test::measured_argument("rgl/cm_military_green_rgb.bsdf");
   if (file.empty()) return;
   const auto info = run_gonio("info " + file);
   CHECK(info.code == 0);

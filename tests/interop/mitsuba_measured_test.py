@@ -126,7 +126,7 @@ class MitsubaMeasured(interop.TestCase):
 
     def test_a_matt_sphere_is_rendered_as_bright_as_a_diffuse_one(self):
         fit = self.fit("lambert", rho_d=0.5)
-        diffuse = '<bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf>'
+        diffuse = '<bsdf type="diffuse" id="material"><rgb name="reflectance" value="0.5"/></bsdf>'
         for target, variant in (("rgl", "scalar_rgb"), ("rgl-spectral", "scalar_spectral")):
             text = self.export(fit, target).with_suffix(".xml").read_text()
             found = self.rendered(text, variant)

@@ -169,8 +169,8 @@ class MitsubaParameters(interop.TestCase):
         interop.gonio("export", self.fit("ggx", rho_d=0.2, f0=0.04, f90=1, alpha=0.2), "--to", "mitsuba", "--out", scene)
         loaded = self.mitsuba.load_file(str(scene))
         picture = self.numpy.array(self.mitsuba.render(loaded, spp=1))
-        self.check(picture.shape == (256, 256, 3) and picture.min() >= 0, "a picture of the scene's size")
-        self.check(0.1 < picture[118:138, 118:138].mean() < 10, f"a lit sphere in its middle: {picture[118:138, 118:138].mean()}")
+        self.check(picture.shape == (512, 512, 3) and picture.min() >= 0, "a picture of the scene's size")
+        self.check(0.1 < picture[246:266, 246:266].mean() < 10, f"a lit sphere in its middle: {picture[246:266, 246:266].mean()}")
 
     def test_the_printed_error_is_that_of_the_real_program(self):
         # The share of pairs differs from the grid of the refit; the figure is of the same size.

@@ -25,12 +25,9 @@ const std::string folder = "loft_rt300s/raw_csv/";
 
 /// EC1 less its blank, as it is read; without a quantity as raw ratios.
 std::shared_ptr<Dataset> ec1(Quantity quantity) {
-  const auto path = test::data_file(folder + "ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
-  const auto blank = test::data_file(folder + "blank_v2o0_20250911.csv");
-  if (!path || !blank) {
-    WARN("skipped: no measured data at " << folder << ", set GONIO_DATA");
-    return nullptr;
-  }
+  const auto path = test::measured_data(folder + "ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
+  const auto blank = test::measured_data(folder + "blank_v2o0_20250911.csv");
+  if (!path || !blank) return nullptr;
   ReadOptions options;
   options.columns = {{"phi_o_deg", "azimuth_deg"}, {"theta_i_deg", "incidence_deg"}, {"theta_o_deg", "receive_deg"}, {"value", "RT"}};
   options.set = {{"phi_i_deg", 90}};

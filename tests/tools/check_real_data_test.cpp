@@ -18,20 +18,12 @@ using test::run_gonio;
 
 namespace {
 
-/// The path in quotes, or nothing and a word about it.
-std::string measured(const std::string& name) {
-  const auto path = test::data_file(name);
-  if (!path) WARN("skipped: no measured data at " << name << ", set GONIO_DATA");
-  SUCCEED();  // so that a skipped test is not one without assertions
-  return path ? "'" + path->string() + "'" : "";
-}
-
 const std::string loft = "loft_rt300s/raw_csv/";
 /// How RT-300S readings become f: the white is read at normal view, the blank is subtracted.
 std::string rt300s_flags() {
   return " --columns phi_o_deg=azimuth_deg,theta_i_deg=incidence_deg,theta_o_deg=receive_deg,value=RT --set phi_i_deg=90"
          " --quantity signal_ratio --blank " +
-         measured(loft + "blank_v2o0_20250911.csv");
+         test::measured_argument(loft + "blank_v2o0_20250911.csv");
 }
 
 const Json& check_named(const Json& document, const std::string& id) {
@@ -54,8 +46,9 @@ Json checked(const std::string& arguments) {
 TEST_CASE("NiTE on steel passes isotropy at three rotations and IMX455 fails it at four, within 10 %") {
   std::string nite, imx;
   for (const char* name : {"NiTE_on_steel_v1o0A_20250915", "NiTE_on_steel_v1o0B_20250916", "NiTE_on_steel_v1o0C_20250916"})
-    nite += measured(loft + name + ".csv") + " ";
-  for (const char* rotation : {"0", "30", "60", "90"}) imx += measured(loft + "IMX455_stageRotation" + rotation + "_20250922.csv") + " ";
+    nite += test::measured_argument(loft + name + ".csv") + " ";
+  for (const char* rotation : {"0", "30", "60", "90"})
+    imx += test::measured_argument(loft + "IMX455_stageRotation" + rotation + "_20250922.csv") + " ";
   if (nite.find("NiTE") == std::string::npos) return;
   const auto coating = run_gonio("check " + nite + "--rotation 0,45,90 --margin 0.1 --json" + rt300s_flags());
   const auto sensor = run_gonio("check " + imx + "--rotation 0,30,60,90 --margin 0.1 --json" + rt300s_flags());
@@ -77,7 +70,7 @@ TEST_CASE("NiTE on steel passes isotropy at three rotations and IMX455 fails it 
 }
 
 TEST_CASE("EC1's in-plane partners have the ratios published for them, and the instrument keeps them from being a verdict") {
-  const std::string file = measured(loft + "ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
+  const std::string file = test::measured_argument(loft + "ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
   if (file.empty()) return;
   const Json document = checked(file + rt300s_flags() + " --where 1000");
   const Json& check = check_named(document, "reciprocity");
@@ -107,7 +100,7 @@ TEST_CASE("EC1's in-plane partners have the ratios published for them, and the i
 }
 
 TEST_CASE("NIST's PTFE passes reciprocity and mirror symmetry, one channel per wavelength, with the size of what is left") {
-  const std::string file = measured("nist_ptfe/PTFE.data.csv");
+  const std::string file = test::measured_argument("nist_ptfe/PTFE.data.csv");
   if (file.empty()) return;
   const Json document =
       checked(file + " --columns theta_i_deg=thetai,phi_i_deg=phi,theta_o_deg=thetar,phi_o_deg=phir,value=f_r11,wavelength_um=lambda");
@@ -138,7 +131,7 @@ TEST_CASE("Every RGL table has its reciprocity defect printed with the statistic
                                                                                               {"cm_military_green", .2, 1},
                                                                                               {"irid_flake_paint1", .2, 1},
                                                                                               {"vch_silk_blue", .2, 1}}) {
-    const std::string file = measured("rgl/" + name + "_rgb.bsdf");
+    const std::string file = test::measured_argument("rgl/" + name + "_rgb.bsdf");
     if (file.empty()) continue;
     const Json document = checked(file);
     const Json& check = check_named(document, "reciprocity");

@@ -15,15 +15,6 @@ namespace {
 
 std::string quoted(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
 
-/// The file as an argument; empty, with a clear word, where the data are not there.
-std::string measured(const std::string& name) {
-  const auto path = test::data_file(name);
-  if (path) return quoted(*path);
-  WARN("skipped: no measured data at " << name << ", set GONIO_DATA");
-  SUCCEED();
-  return "";
-}
-
 /// Exports to an RGL file of the smallest size, which must hold values that gonio reads.
 Json rgl_of(const std::string& arguments, const std::string& format) {
   const test::TemporaryFolder folder;
@@ -59,8 +50,8 @@ void refused_for_one_azimuth(const std::string& arguments) {
 }  // namespace
 
 TEST_CASE("The black coating EC1 becomes a material once isotropy is imposed; masked and extrapolated values are counted") {
-  const std::string ec1 = measured("loft_rt300s/raw_csv/ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
-  const std::string blank = measured("loft_rt300s/raw_csv/blank_v2o0_20250911.csv");
+  const std::string ec1 = test::measured_argument("loft_rt300s/raw_csv/ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
+  const std::string blank = test::measured_argument("loft_rt300s/raw_csv/blank_v2o0_20250911.csv");
   if (ec1.empty() || blank.empty()) return;
   const std::string source =
       ec1 +
@@ -77,7 +68,7 @@ TEST_CASE("The black coating EC1 becomes a material once isotropy is imposed; ma
 }
 
 TEST_CASE("NIST's PTFE becomes a spectral material that is nearly white") {
-  const std::string ptfe = measured("nist_ptfe/PTFE.data.csv");
+  const std::string ptfe = test::measured_argument("nist_ptfe/PTFE.data.csv");
   if (ptfe.empty()) return;
   refused_for_one_azimuth(ptfe + " --guide lambert");
   const Json document = rgl_of(ptfe + " --guide lambert --impose isotropy", "rgl-spectral");
@@ -86,7 +77,7 @@ TEST_CASE("NIST's PTFE becomes a spectral material that is nearly white") {
 }
 
 TEST_CASE("A Cornell paint, measured on one side of the plane of incidence, becomes a material once both symmetries are imposed") {
-  const std::string paint = measured("cornell/garnet_red.brdf");
+  const std::string paint = test::measured_argument("cornell/garnet_red.brdf");
   if (paint.empty()) return;
   const Json document = rgl_of(paint + " --guide blinn-phong --impose isotropy,bilateral", "rgl");
   counted(document, 0.5);
@@ -94,7 +85,7 @@ TEST_CASE("A Cornell paint, measured on one side of the plane of incidence, beco
 }
 
 TEST_CASE("The chassis, measured in one plane, becomes no table but a model of a renderer") {
-  const std::string chassis = measured("lumos/chassis_brdf.csv");
+  const std::string chassis = test::measured_argument("lumos/chassis_brdf.csv");
   if (chassis.empty()) return;
   const std::string source = chassis + " --columns theta_i_deg=1,phi_i_deg=2,theta_o_deg=3,phi_o_deg=4,value=5";
   refused_for_one_azimuth(source + " --guide lambert");

@@ -86,11 +86,8 @@ TEST_CASE("Half-difference coordinates read too; a slice is refused until one sa
 }
 
 TEST_CASE("The published slice of a pink felt is refused for a reason, and read with an answer") {
-  const auto path = test::data_file("alta_misc/pink-felt-1d.alta");
-  if (!path) {
-    WARN("alta_misc/pink-felt-1d.alta is not there");
-    return;
-  }
+  const auto path = test::measured_data("alta_misc/pink-felt-1d.alta");
+  if (!path) return;
   CHECK(test::faults_of([&] { open_brdf(*path); }).find("a slice at one theta_d_deg") != std::string::npos);
   ReadOptions options;
   options.assume = {{"theta_d_deg", "0"}, {"phi_d_deg", "0"}};

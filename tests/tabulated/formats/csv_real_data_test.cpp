@@ -23,22 +23,14 @@ namespace {
 const std::vector<std::pair<std::string, std::string>> five_columns{
     {"theta_i_deg", "1"}, {"phi_i_deg", "2"}, {"theta_o_deg", "3"}, {"phi_o_deg", "4"}, {"value", "5"}};
 
-/// The file, or nothing and a word about it.
-std::filesystem::path measured(const std::string& name) {
-  const auto path = test::data_file(name);
-  if (!path) WARN("skipped: no measured data at " << name << ", set GONIO_DATA");
-  SUCCEED();  // so that a skipped test is not one without assertions
-  return path.value_or("");
-}
-
 }  // namespace
 
 TEST_CASE("NASA's airborne vegetation data read as 14500 samples") {
-  const auto path = measured("lumos/vegetation_brdf_cars.csv");
-  if (path.empty()) return;
+  const auto path = test::measured_data("lumos/vegetation_brdf_cars.csv");
+  if (!path) return;
   ReadOptions options;
   options.columns = five_columns;
-  const Dataset data = read_csv(path, options);
+  const Dataset data = read_csv(*path, options);
   CHECK(data.size() == 14500);
   CHECK(data.masked.total() == 0);
   CHECK(data.angles[0].theta_i.degrees() == 30.42);
@@ -47,34 +39,34 @@ TEST_CASE("NASA's airborne vegetation data read as 14500 samples") {
 }
 
 TEST_CASE("Scatterworks' in-plane data keep every sample, 90 degrees included") {
-  const auto path = measured("lumos/chassis_brdf.csv");
-  if (path.empty()) return;
+  const auto path = test::measured_data("lumos/chassis_brdf.csv");
+  if (!path) return;
   ReadOptions options;
   options.columns = five_columns;
-  const Dataset data = read_csv(path, options);
+  const Dataset data = read_csv(*path, options);
   CHECK(data.size() == 4 * 181);
   CHECK(data.masked.total() == 0);
   for (const GonioAngles& angles : data.angles) REQUIRE(angles.theta_o.degrees() >= 0);
 }
 
 TEST_CASE("The in-plane slice of MERL's aluminium reads") {
-  const auto path = measured("lumos/merl_aluminium_inplane.csv");
-  if (path.empty()) return;
+  const auto path = test::measured_data("lumos/merl_aluminium_inplane.csv");
+  if (!path) return;
   ReadOptions options;
   options.columns = five_columns;
-  const Dataset data = read_csv(path, options);
+  const Dataset data = read_csv(*path, options);
   CHECK(data.size() + data.masked.total() == 7 * 255);
 }
 
 TEST_CASE("The RT-300S black coating gives its published means after blank and conversion") {
-  const auto path = measured("loft_rt300s/raw_csv/ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
-  if (path.empty()) return;
+  const auto path = test::measured_data("loft_rt300s/raw_csv/ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
+  if (!path) return;
   ReadOptions options;
   options.columns = {{"phi_o_deg", "azimuth_deg"}, {"theta_i_deg", "incidence_deg"}, {"theta_o_deg", "receive_deg"}, {"value", "RT"}};
   options.set = {{"phi_i_deg", 90}};
   options.quantity = Quantity::signal_ratio;
-  options.blank = measured("loft_rt300s/raw_csv/blank_v2o0_20250911.csv");
-  const Dataset data = read_csv(path, options);
+  options.blank = test::measured_data("loft_rt300s/raw_csv/blank_v2o0_20250911.csv").value();
+  const Dataset data = read_csv(*path, options);
   CHECK(data.size() == 2508);
   std::map<double, std::pair<double, int>> sums;
   for (std::size_t k = 0; k < data.size(); ++k)
@@ -89,9 +81,9 @@ TEST_CASE("The RT-300S black coating gives its published means after blank and c
 }
 
 TEST_CASE("Cornell's paints read in radians once their preamble is cut off") {
-  const auto path = measured("cornell/krylon_blue.brdf");
-  if (path.empty()) return;
-  std::istringstream lines(read_file(path));
+  const auto path = test::measured_data("cornell/krylon_blue.brdf");
+  if (!path) return;
+  std::istringstream lines(read_file(*path));
   std::string rows;
   for (std::string line; std::getline(lines, line);)
     if (std::count(line.begin(), line.end(), '.') == 35) rows += line + "\n";
@@ -106,11 +98,11 @@ TEST_CASE("Cornell's paints read in radians once their preamble is cut off") {
 }
 
 TEST_CASE("NIST's PTFE reads with its header's names") {
-  const auto path = measured("nist_ptfe/PTFE.data.csv");
-  if (path.empty()) return;
+  const auto path = test::measured_data("nist_ptfe/PTFE.data.csv");
+  if (!path) return;
   ReadOptions options;
   options.columns = {{"theta_i_deg", "thetai"}, {"phi_i_deg", "phi"}, {"theta_o_deg", "thetar"}, {"phi_o_deg", "phir"}, {"value", "f_r11"}};
-  const Dataset data = read_csv(path, options);
+  const Dataset data = read_csv(*path, options);
   CHECK(data.size() == 4 * 1824);
   CHECK(data.angles[0].theta_i.degrees() == 0.001);
   CHECK(data.angles[0].phi_i.degrees() == 180);

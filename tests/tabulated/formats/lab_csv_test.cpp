@@ -35,13 +35,6 @@ ReadOptions perfect_white() {
   return options;
 }
 
-std::filesystem::path measured(const std::string& name) {
-  const auto path = test::data_file(name);
-  if (!path) WARN("skipped: no measured data at " << name << ", set GONIO_DATA");
-  SUCCEED();  // so that a skipped test is not one without assertions
-  return path.value_or("");
-}
-
 /// f by (azimuth from the light, incidence, receive) rounded to degrees.
 using Pose = std::array<int, 3>;
 std::map<Pose, double> by_pose(const Dataset& data) {
@@ -57,9 +50,9 @@ std::map<Pose, double> by_pose(const Dataset& data) {
 
 Dataset rt300s(const std::string& name, bool keep_blocked) {
   ReadOptions options = perfect_white();
-  options.blank = measured("loft_rt300s/raw_csv/blank_v2o0_20250911.csv");
+  options.blank = test::measured_data("loft_rt300s/raw_csv/blank_v2o0_20250911.csv").value();
   if (keep_blocked) options.assume["blocked"] = "keep";
-  const Opened opened = open_brdf(measured("loft_rt300s/raw_csv/" + name), options);
+  const Opened opened = open_brdf(test::measured_data("loft_rt300s/raw_csv/" + name).value(), options);
   CHECK(opened.format == "rt300s");
   return *opened.dataset;
 }
@@ -117,9 +110,9 @@ TEST_CASE("NIST's file is known by its header: micrometres become channels, nega
 }
 
 TEST_CASE("The black coating on the RT-300S gives its reference figures without a flag for any column") {
-  const auto path = measured("loft_rt300s/raw_csv/ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
-  if (path.empty()) return;
-  const Dataset data = rt300s(path.filename().string(), true);
+  const auto path = test::measured_data("loft_rt300s/raw_csv/ANOPLATE_AnoBlack_EC1_Alum6061_v1o0_20251115.csv");
+  if (!path) return;
+  const Dataset data = rt300s(path->filename().string(), true);
   CHECK(data.size() == 2508);
   std::map<int, std::pair<double, int>> normal;
   for (std::size_t k = 0; k < data.size(); ++k)
@@ -168,13 +161,13 @@ TEST_CASE("The black coating on the RT-300S gives its reference figures without 
       }
     CHECK(std::fabs(polar_integral(theta, phi, f) / reference - 1) < 0.03);
   }
-  const Dataset masked = rt300s(path.filename().string(), false);
+  const Dataset masked = rt300s(path->filename().string(), false);
   CHECK(masked.masked.blocked > 0);
   CHECK(masked.size() + masked.masked.blocked == 2508);
 }
 
 TEST_CASE("Turning NiTE on steel changes it by 3 to 7 per cent, turning IMX455 by 29 to 43") {
-  if (measured("loft_rt300s/raw_csv/IMX455_stageRotation0_20250922.csv").empty()) return;
+  if (!test::measured_data("loft_rt300s/raw_csv/IMX455_stageRotation0_20250922.csv")) return;
   const auto medians = [](const std::vector<std::string>& names) {
     std::vector<std::map<Pose, double>> rotations;
     for (const std::string& name : names) rotations.push_back(by_pose(rt300s(name, true)));
@@ -192,18 +185,18 @@ TEST_CASE("Turning NiTE on steel changes it by 3 to 7 per cent, turning IMX455 b
 }
 
 TEST_CASE("Every file of the RT-300S reads, in plane and not, blanks included") {
-  const auto first = measured("loft_rt300s/raw_csv/MagicBlack_v1o0_20250829.csv");
-  if (first.empty()) return;
-  for (const auto& file : std::filesystem::directory_iterator(first.parent_path())) {
+  const auto first = test::measured_data("loft_rt300s/raw_csv/MagicBlack_v1o0_20250829.csv");
+  if (!first) return;
+  for (const auto& file : std::filesystem::directory_iterator(first->parent_path())) {
     INFO(file.path());
     CHECK(open_brdf(file.path(), perfect_white()).dataset->size() > 500);
   }
 }
 
 TEST_CASE("NIST's PTFE at 532 nm: the mean at normal incidence and the symmetry about the plane of incidence are as published") {
-  const auto path = measured("nist_ptfe/PTFE.data.csv");
-  if (path.empty()) return;
-  const Opened opened = open_brdf(path);
+  const auto path = test::measured_data("nist_ptfe/PTFE.data.csv");
+  if (!path) return;
+  const Opened opened = open_brdf(*path);
   CHECK(opened.format == "nist");
   const Dataset& data = *opened.dataset;
   REQUIRE(data.channels.size() == 4);

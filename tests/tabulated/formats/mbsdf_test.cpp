@@ -119,11 +119,8 @@ TEST_CASE("A model written and read again is the same at the nodes and near it b
 }
 
 TEST_CASE("The real file of a red car paint: negative values, and the peak at the last azimuth") {
-  const auto path = test::data_file("mdl/carpaint_red.mbsdf");
-  if (!path) {
-    WARN("mdl/carpaint_red.mbsdf is not there");
-    return;
-  }
+  const auto path = test::measured_data("mdl/carpaint_red.mbsdf");
+  if (!path) return;
   const Opened read = open_brdf(*path);
   CHECK(read.format == "mbsdf");
   const auto& table = dynamic_cast<const LatticeTable&>(*read.brdf);

@@ -305,11 +305,8 @@ TEST_CASE("Samples become a table where they lie, and what is far from them is m
 }
 
 TEST_CASE("A file of the RGL database becomes a MERL file that agrees with it at the nodes") {
-  const auto file = test::data_file("rgl/cc_ibiza_sunset_rgb.bsdf");
-  if (!file) {
-    WARN("no measured data: rgl/cc_ibiza_sunset_rgb.bsdf");
-    return;
-  }
+  const auto file = test::measured_data("rgl/cc_ibiza_sunset_rgb.bsdf");
+  if (!file) return;
   const TemporaryFolder scratch;
   const Opened material = open_brdf(*file);
   write_merl(material, scratch / "m", on(MerlNodes::centre));

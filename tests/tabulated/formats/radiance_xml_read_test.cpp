@@ -230,11 +230,8 @@ TEST_CASE("Truncated anywhere a file is refused") {
 }
 
 TEST_CASE("The woven shade: 145 x 145, hemispherical as its sums, reciprocal as well as it was measured") {
-  const auto path = test::data_file("klems/klems_aniso_high.xml");
-  if (!path) {
-    WARN("no measured data: klems/klems_aniso_high.xml");
-    return;
-  }
+  const auto path = test::measured_data("klems/klems_aniso_high.xml");
+  if (!path) return;
   const Opened file = open_brdf(*path);
   const auto table = std::dynamic_pointer_cast<const KlemsTable>(file.brdf);
   REQUIRE(table);
@@ -285,11 +282,8 @@ TEST_CASE("The woven shade: 145 x 145, hemispherical as its sums, reciprocal as 
 }
 
 TEST_CASE("The isotropic shade and its excerpt agree where both know") {
-  const auto whole = test::data_file("klems/2011-SA1.xml"), small = test::data_file("klems/2011-SA1-Small-CommaSeparated.XML");
-  if (!whole || !small) {
-    WARN("no measured data: klems/2011-SA1.xml");
-    return;
-  }
+  const auto whole = test::measured_data("klems/2011-SA1.xml"), small = test::measured_data("klems/2011-SA1-Small-CommaSeparated.XML");
+  if (!whole || !small) return;
   ReadOptions through;
   through.assume = {{"kind", "transmission"}, {"side", "front"}};
   const Opened all = open_brdf(*whole, through), part = open_brdf(*small, through);

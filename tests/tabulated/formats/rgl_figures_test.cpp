@@ -111,10 +111,7 @@ TEST_CASE("The table and the independent evaluator give the same values, for fil
   std::vector<std::pair<const char*, RglArrays>> files{
       {"GGX", written(model("ggx", {0.1, 0.5, 1, 0.2}), GridSize::paper)},
       {"anisotropic GGX", written(source_of(std::make_shared<test::GgxAnisotropic>(0.15, 0.4)), GridSize::paper)}};
-  if (const auto path = test::data_file("rgl/cc_ibiza_sunset_rgb.bsdf"))
-    files.emplace_back("cc_ibiza_sunset", read_rgl(*path));
-  else
-    WARN("skipped: no measured data at rgl/cc_ibiza_sunset_rgb.bsdf, set GONIO_DATA");
+  if (const auto path = test::measured_data("rgl/cc_ibiza_sunset_rgb.bsdf")) files.emplace_back("cc_ibiza_sunset", read_rgl(*path));
   for (const auto& [name, arrays] : files) {
     const RglTable table(arrays);
     const test::ReferenceRgl reference(arrays);

@@ -165,11 +165,8 @@ TEST_CASE("Measured materials evaluate as Mitsuba 3.9.1 does, over cos theta_o")
   constexpr double single_precision = 2e-5;
   SUCCEED();
   for (const Reference& ref : references) {
-    const auto path = test::data_file(std::string("rgl/") + ref.name + "_rgb.bsdf");
-    if (!path) {
-      WARN("skipped: no measured data at rgl/" << ref.name << "_rgb.bsdf, set GONIO_DATA");
-      continue;
-    }
+    const auto path = test::measured_data(std::string("rgl/") + ref.name + "_rgb.bsdf");
+    if (!path) continue;
     const Opened opened = open_brdf(*path);
     const auto f = opened.brdf->eval(Direction::spherical(degrees(ref.theta_i), degrees(ref.phi_i)),
                                      Direction::spherical(degrees(ref.theta_o), degrees(ref.phi_o)));

@@ -173,11 +173,8 @@ TEST_CASE("The directional albedo of a file is that of its source to 0.1 %") {
 TEST_CASE("Real material files are written again as they are, and their spectra look the same") {
   SUCCEED();
   for (const char* name : {"aurora_white", "cc_ibiza_sunset", "vch_silk_blue"}) {
-    const auto path = test::data_file(std::string("rgl/") + name + "_rgb.bsdf");
-    if (!path) {
-      WARN("skipped: no measured data at rgl/" << name << "_rgb.bsdf, set GONIO_DATA");
-      continue;
-    }
+    const auto path = test::measured_data(std::string("rgl/") + name + "_rgb.bsdf");
+    if (!path) continue;
     const Opened source = open_brdf(*path);
     const RglArrays before = read_rgl(*path);
     const RglArrays after = table_of(written(source, {}).opened).arrays();
@@ -200,12 +197,9 @@ TEST_CASE("Real material files are written again as they are, and their spectra 
 }
 
 TEST_CASE("A real material on a grid built anew keeps the mean of both sides of the plane of incidence at the nodes") {
-  const auto path = test::data_file("rgl/cc_ibiza_sunset_rgb.bsdf");
+  const auto path = test::measured_data("rgl/cc_ibiza_sunset_rgb.bsdf");
   SUCCEED();
-  if (!path) {
-    WARN("skipped: no measured data at rgl/cc_ibiza_sunset_rgb.bsdf, set GONIO_DATA");
-    return;
-  }
+  if (!path) return;
   const Opened real = open_brdf(*path);
   const auto value = [&](const Direction& wi, const Direction& wo, std::size_t c) { return real.brdf->eval(wi, wo)[c]; };
   const Written file = written(

@@ -18,9 +18,9 @@
 
 using namespace gonio;
 using namespace gonio::tabulated;
-using gonio::test::replaced;
 using gonio::test::faults_of;
 using gonio::test::read_file;
+using gonio::test::replaced;
 using gonio::test::source_of_model;
 using gonio::test::TemporaryFolder;
 
@@ -189,12 +189,8 @@ TEST_CASE(
     "The tables of the owners of the RT-300S are read and written unchanged; their TIS is half the integral of f without its cosine") {
   const TemporaryFolder scratch;
   for (const std::string name : {"AnoBlackEC1onAlum", "AnoBlackNiTEonSteel"}) {
-    const auto path = test::data_file("loft_rt300s/processed_zemax/" + name + ".bsdf");
-    if (!path) {
-      WARN("skipped: no measured data at loft_rt300s, set GONIO_DATA");
-      SUCCEED();
-      return;
-    }
+    const auto path = test::measured_data("loft_rt300s/processed_zemax/" + name + ".bsdf");
+    if (!path) return;
     const Opened opened = open_brdf(*path);
     CHECK(opened.format == "zemax");
     const auto& table = dynamic_cast<const ZemaxTable&>(*opened.brdf);
